@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# One non-recursive Makefile.  `make help` lists the targets.
+#
+# Layering: a library sees the headers of the libraries in its USES_ line, and of those that they
+# use, and no others: an upward include stops with "No such file or directory".
+
+OPT  ?= Release
+B    := build/$(OPT)
+
+# ---- the layers, lowest first -------------------------------------------------------------------
+LIBS := core geometry linearSolvers particles boundary fileFormats operators models coupling \
+        functionObjects
+
+USES_core            :=
+USES_geometry        := core
+USES_linearSolvers   := core
+USES_particles       := core
+USES_boundary        := particles geometry
+USES_fileFormats     := particles
+USES_operators       := particles linearSolvers
+USES_models          := operators
+USES_coupling        := models boundary
+USES_functionObjects := models boundary fileFormats
+
+# Programs: one folder each, all its *.C.  They see every library; packages beyond the common ones:
+APPS := $(sort $(dir $(wildcard applications/solvers/*/*.C applications/utilities/*/*/*.C)))
+PKG_generateParticles := -lgmsh
+PKG_checkParticles    :=
+
+# Tests: one doctest program per folder of tests/, seeing the library of the same name and below.
+TESTS := $(sort $(notdir $(patsubst %/,%,$(dir $(wildcard tests/*/*.C)))))
+PKG_TEST_generateParticles := -lgmsh
+
+# ---- flags ---------------------------------------------------------------------------------------
+CXX      ?= g++
+WARN     := -Wall -Wextra -Wno-psabi
+FLAGS_Release  := -O3 -DNDEBUG
+FLAGS_Debug    := -O0 -g -D_GLIBCXX_ASSERTIONS
+FLAGS_Sanitize := -O1 -g -fsanitize=address,undefined -fno-omit-frame-pointer
+ifeq ($(FLAGS_$(OPT)),)
+$(error OPT=$(OPT) is not known; valid: Release Debug Sanitize)
+endif
+# no-math-errno and no-trapping-math keep NaN checks working; finite-math-only would not
+HDF5_I   := $(shell pkg-config --cflags hdf5 2>/dev/null || echo -I/usr/include/hdf5/serial)
+HDF5_L   := $(shell pkg-config --libs-only-L hdf5 2>/dev/null || echo -L/usr/lib/x86_64-linux-gnu/hdf5/serial)
+CXXFLAGS := -std=c++20 $(WARN) $(FLAGS_$(OPT)) -fno-math-errno -fno-trapping-math -fopenmp \
+            -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse $(HDF5_I:-I%=-isystem %)
+LDLIBS   := $(HDF5_L) -lhdf5 -lcholmod -lumfpack -lopenblas -fopenmp
+
+# ---- rules ---------------------------------------------------------------------------------------
+reverse   = $(if $(1),$(call reverse,$(wordlist 2,$(words $(1)),$(1))) $(firstword $(1)))
+closure   = $(sort $(1) $(foreach u,$(1),$(call closure,$(USES_$(u)))))
+ordered   = $(filter $(call closure,$(1)),$(LIBS))
+quoted    = $(foreach l,$(1),-iquote src/$(l))
+archives  = $(foreach l,$(call reverse,$(LIBS)),$(if $(wildcard src/$(l)/*.C),$(B)/lib$(l).a))
+archivesOf= $(foreach l,$(call reverse,$(call ordered,$(1))),$(if $(wildcard src/$(l)/*.C),$(B)/lib$(l).a))
+
+.PHONY: all test demo clean help format
+all: ## build every library and program
+help: ## this list
+	@grep -hE '^[a-zA-Z]+:.*## ' Makefile | sed -E 's/^([a-zA-Z]+):.*## /  \1\t/' | expand -t 14
+	@echo "  OPT=Release|Debug|Sanitize chooses the build; each has its own folder below build/"
+
+define LIBRARY
+OBJ_$(1) := $$(patsubst %.C,$(B)/%.o,$$(wildcard src/$(1)/*.C))
+$$(OBJ_$(1)): INC = $$(call quoted,$$(call ordered,$(1)))
+$(B)/lib$(1).a: $$(OBJ_$(1))
+	@rm -f $$@; ar rcs $$@ $$^
+all: $$(if $$(wildcard src/$(1)/*.C),$(B)/lib$(1).a)
+OBJECTS += $$(OBJ_$(1))
+endef
+$(foreach l,$(LIBS),$(eval $(call LIBRARY,$(l))))
+
+define PROGRAM
+OBJ_app_$(notdir $(1)) := $$(patsubst %.C,$(B)/%.o,$$(wildcard $(1)/*.C))
+$$(OBJ_app_$(notdir $(1))): INC = $$(call quoted,$$(LIBS)) -iquote $(1)
+$(B)/bin/$(notdir $(1)): $$(OBJ_app_$(notdir $(1))) $$(call archives)
+	@mkdir -p $$(@D); echo "LD   $$@"
+	@$$(CXX) $$(FLAGS_$$(OPT)) $$^ -o $$@ $$(PKG_$(notdir $(1))) $$(LDLIBS)
+.PHONY: $(notdir $(1))
+$(notdir $(1)): $(B)/bin/$(notdir $(1))
+all: $(B)/bin/$(notdir $(1))
+OBJECTS += $$(OBJ_app_$(notdir $(1)))
+endef
+$(foreach a,$(patsubst %/,%,$(APPS)),$(eval $(call PROGRAM,$(a))))
+
+define TEST
+OBJ_test_$(1) := $$(patsubst %.C,$(B)/%.o,$$(wildcard tests/$(1)/*.C))
+$$(OBJ_test_$(1)): INC = $$(call quoted,$$(if $$(filter $(1),$$(LIBS)),$$(call ordered,$(1)),$$(LIBS))) -iquote tests
+$(B)/tests/$(1): $$(OBJ_test_$(1)) $$(if $$(filter $(1),$$(LIBS)),$$(call archivesOf,$(1)),$$(call archives))
+	@mkdir -p $$(@D); echo "LD   $$@"
+	@$$(CXX) $$(FLAGS_$$(OPT)) $$^ -o $$@ $$(PKG_TEST_$(1)) $$(LDLIBS)
+OBJECTS += $$(OBJ_test_$(1))
+testPrograms: $(B)/tests/$(1)
+endef
+.PHONY: testPrograms
+testPrograms:
+$(foreach t,$(TESTS),$(eval $(call TEST,$(t))))
+
+$(B)/%.o: %.C Makefile
+	@mkdir -p $(@D); echo "CXX  $<"
+	@$(CXX) $(CXXFLAGS) $(INC) -MMD -MP -c $< -o $@
+
+test: all testPrograms ## build and run every test (at most 10 minutes)
+	@ISPF_BIN=$(B)/bin bin/runTests $(B)/tests
+
+demo: ## install what is missing, build, run the benchmark, draw it, compare with the published numbers
+	@bin/demo
+
+format: ## clang-format all sources in place
+	@clang-format -i $$(git ls-files '*.C' '*.H')
+
+clean: ## remove build/
+	@rm -rf build
+
+-include $(OBJECTS:.o=.d)
