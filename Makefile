@@ -8,7 +8,7 @@ OPT  ?= Release
 B    := build/$(OPT)
 
 # ---- the layers, lowest first -------------------------------------------------------------------
-LIBS := core geometry linearSolvers particles boundary fileFormats operators models coupling \
+LIBS := core geometry linearSolvers fileFormats particles boundary operators models coupling \
         functionObjects
 
 USES_core            :=
@@ -16,7 +16,7 @@ USES_geometry        := core
 USES_linearSolvers   := core
 USES_particles       := core
 USES_boundary        := particles geometry
-USES_fileFormats     := particles
+USES_fileFormats     := core
 USES_operators       := particles linearSolvers
 USES_models          := operators
 USES_coupling        := models boundary
