@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "particleCloud.H"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace ispf
+{
+
+label particleCloud::zoneIndex(const word& name) const
+{
+    List<word> names;
+    for (size_t z = 0; z < zones.size(); ++z)
+    {
+        if (zones[z].name == name) return label(z);
+        names.push_back(zones[z].name);
+    }
+    throw fatalError("Unknown zone '" + name + "'. " + validWords("zone", names));
+}
+
+// All owned fields, so that sorting, deleting and adding treat each the same way
+template<class Visit>
+void particleCloud::forAllFields(Visit&& visit)
+{
+    visit(x), visit(Up), visit(zone), visit(phase), visit(id), visit(uFixed), visit(pFixed);
+    visit(pGiven);
+    for (auto& [name, field] : scalars) visit(field);
+    for (auto& [name, field] : vectors) visit(field);
+}
+
+void particleCloud::append(const vector& position, std::uint8_t zoneIndex, const vec4& up,
+                           globalId number)
+{
+    clearGhosts();
+    const zoneInfo& z = zones.at(zoneIndex);
+    if (z.phase == phaseType::solid)
+    {
+        if (n_ > nSolid_) throw fatalError("Solid particle " + std::to_string(number) +
+                                           " follows a fluid one; solids must come first");
+        ++nSolid_;
+    }
+    ++n_;
+    forAllFields([&](auto& field) { field.resize(n_); });
+    const label i = n_ - 1;
+    x[i] = vec4::from(position), Up[i] = up, zone[i] = zoneIndex, phase[i] = z.phase;
+    id[i] = number, uFixed[i] = z.fixed, pFixed[i] = 0, pGiven[i] = 0;
+    for (auto& [name, field] : scalars) field[i] = 0;
+    for (auto& [name, field] : vectors) field[i] = vec4{};
+    nextId_ = std::max(nextId_, number + 1);
+}
+
+void particleCloud::remove(const List<char>& flag)
+{
+    clearGhosts();
+    forAllFields(
+        [&](auto& field)
+        {
+            label to = nSolid_;
+            for (label i = nSolid_; i < n_; ++i)
+                if (!flag[i]) field[to++] = field[i];
+            field.resize(to);
+        });
+    n_ = label(x.size());
+}
+
+void particleCloud::sortFluid(scalar cellSize)
+{
+    clearGhosts();
+    const label nFluid = n_ - nSolid_;
+    if (nFluid < 2) return;
+    vector low = x[nSolid_].xyz(), high = low;
+    for (label i = nSolid_; i < n_; ++i)
+        low = low.cwiseMin(x[i].xyz()), high = high.cwiseMax(x[i].xyz());
+    const auto cell = [&](label i, int d) { return std::int64_t((x[i][d] - low[d]) / cellSize); };
+    const std::int64_t nx = std::int64_t((high[0] - low[0]) / cellSize) + 1;
+    const std::int64_t ny = std::int64_t((high[1] - low[1]) / cellSize) + 1;
+    List<std::int64_t> key(n_);
+    for (label i = nSolid_; i < n_; ++i) key[i] = (cell(i, 2) * ny + cell(i, 1)) * nx + cell(i, 0);
+    List<label> order(nFluid);
+    std::iota(order.begin(), order.end(), nSolid_);
+    std::stable_sort(order.begin(), order.end(), [&](label a, label b) { return key[a] < key[b]; });
+    forAllFields(
+        [&](auto& field)
+        {
+            const auto old = field;
+            for (label k = 0; k < nFluid; ++k) field[nSolid_ + k] = old[order[k]];
+        });
+}
+
+void particleCloud::clearGhosts()
+{
+    x.resize(n_), Up.resize(n_), phase.resize(n_);
+    source_.clear(), rule_.clear(), offset_.clear(), rules_.clear();
+}
+
+label particleCloud::addRule(const Eigen::Matrix4d& M, const tensor& R)
+{
+    rules_.push_back({M, R});
+    return label(rules_.size()) - 1;
+}
+
+void particleCloud::addImage(label source, label rule, const vector& position, const vec4& b)
+{
+    x.push_back(vec4::from(position)), Up.push_back(vec4{});
+    phase.push_back(phase[source]);
+    source_.push_back(source), rule_.push_back(std::uint16_t(rule)), offset_.push_back(b);
+}
+
+void particleCloud::addRigid(const vector& position, const vector& velocity)
+{
+    x.push_back(vec4::from(position)), Up.push_back(vec4::from(velocity));
+    phase.push_back(phaseType::rigid);
+    source_.push_back(-1), rule_.push_back(0), offset_.push_back(vec4::from(velocity));
+}
+
+void particleCloud::fillGhosts(List<vec4>& f, bool homogeneous) const
+{
+    f.resize(x.size());
+    parallelFor(nGhosts(),
+                [&](label begin, label end)
+                {
+                    const simd4 zero = {};
+                    for (label g = begin; g < end; ++g)
+                    {
+                        simd4 value = homogeneous ? zero : offset_[g].s;
+                        if (source_[g] >= 0)
+                        {
+                            const simd4 s = f[source_[g]].s;
+                            const scalar* M = rules_[rule_[g]].M.data();  // column-major
+                            for (int c = 0; c < 4; ++c)
+                                value += s[c] * simd4{M[4 * c], M[4 * c + 1], M[4 * c + 2],
+                                                      M[4 * c + 3]};
+                        }
+                        f[n_ + g].s = value;
+                    }
+                });
+}
+
+void particleCloud::fillGradientGhosts(List<vec4>& f) const
+{
+    f.resize(x.size());
+    parallelFor(nGhosts(),
+                [&](label begin, label end)
+                {
+                    for (label g = begin; g < end; ++g)
+                    {
+                        f[n_ + g] = vec4{};
+                        if (source_[g] < 0) continue;
+                        const vec4& s = f[source_[g]];
+                        const ghostRule& rule = rules_[rule_[g]];
+                        f[n_ + g] = vec4::from(rule.R * s.xyz(), rule.M(3, 3) * s[3]);
+                    }
+                });
+}
+
+void particleCloud::checkFinite(scalar time) const
+{
+    for (label i = 0; i < n_; ++i)
+    {
+        scalar sum = 0;
+        for (int k = 0; k < 4; ++k) sum += x[i][k] + Up[i][k];
+        if (!std::isfinite(sum))
+            throw fatalError("Particle " + std::to_string(id[i]) + " (zone " + zones[zone[i]].name +
+                             ") at (" + str(x[i][0]) + " " + str(x[i][1]) + " " + str(x[i][2]) +
+                             ") has U = (" + str(Up[i][0]) + " " + str(Up[i][1]) + " " +
+                             str(Up[i][2]) + "), p = " + str(Up[i][3]) + " at time " + str(time) +
+                             " s: the run has become unstable. Reduce deltaT or see which limit the "
+                             "log names; the last written time is intact");
+    }
+}
+
+}  // namespace ispf
