@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "atomicFile.H"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+namespace ispf
+{
+
+namespace
+{
+
+[[noreturn]] void fail(const word& path, const word& doing, int error)
+{
+    const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+    throw fatalError("Cannot write '" + path + "': " + doing + ": " + std::strerror(error) + ".\n" +
+                     "An earlier file of that name is untouched.  " +
+                     (full ? "Free some space or raise the limit, then run again."
+                           : "Check that the folder exists and that you may write there."));
+}
+
+// The file under its temporary name; removed again unless it was moved into place
+class temporaryFile
+{
+public:
+    explicit temporaryFile(const word& path)
+        : path_(path),
+          temporary_(path + ".tmp"),
+          descriptor_(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+    {
+        if (descriptor_ < 0) fail(path_, "opening '" + temporary_ + "'", errno);
+    }
+    ~temporaryFile()
+    {
+        if (descriptor_ >= 0) ::close(descriptor_);
+        if (!moved_) ::unlink(temporary_.c_str());
+    }
+    temporaryFile(const temporaryFile&) = delete;
+    temporaryFile& operator=(const temporaryFile&) = delete;
+
+    void write(std::string_view bytes)
+    {
+        while (!bytes.empty())
+        {
+            const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
+            if (n < 0 && errno == EINTR) continue;
+            if (n < 0) fail(path_, "writing", errno);
+            bytes.remove_prefix(size_t(n));
+        }
+    }
+
+    void moveIntoPlace()
+    {
+        if (::fsync(descriptor_) != 0) fail(path_, "flushing to disk", errno);
+        const int closed = ::close(descriptor_);
+        descriptor_ = -1;
+        if (closed != 0) fail(path_, "closing", errno);
+        if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "renaming", errno);
+        moved_ = true;
+    }
+
+private:
+    word path_, temporary_;
+    int descriptor_;
+    bool moved_ = false;
+};
+
+// Without this the rename itself may be lost with the power.  Some file systems cannot do it for a
+// folder and say EINVAL; nothing more can be done there.
+void syncFolder(const word& path, const word& folder)
+{
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) fail(path, "opening folder '" + folder + "'", errno);
+    const int error = ::fsync(descriptor) != 0 ? errno : 0;
+    ::close(descriptor);
+    if (error != 0 && error != EINVAL) fail(path, "flushing folder '" + folder + "'", error);
+}
+
+}  // namespace
+
+void writeAtomically(const word& path, std::string_view bytes)
+{
+    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+    const word folder = parent.empty() ? "." : parent.string();
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail(path, "creating folder '" + folder + "'", error.value());
+
+    temporaryFile file(path);
+    file.write(bytes);
+    file.moveIntoPlace();
+    syncFolder(path, folder);
+}
+
+}  // namespace ispf

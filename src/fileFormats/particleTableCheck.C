@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "particleTableCheck.H"
+
+#include <bit>
+#include <cstdio>
+#include <set>
+
+namespace ispf
+{
+
+namespace
+{
+
+// FNV-1a, eight bytes at a time, over names and values in the order of the table
+class checksum
+{
+public:
+    template <class Columns>
+    void add(const Columns& list)
+    {
+        for (const auto& [name, values] : list)
+        {
+            add(name);
+            add(values);
+        }
+    }
+    void add(const word& text)
+    {
+        mix(text.size());
+        for (const unsigned char c : text) mix(c);
+    }
+    void add(const List<scalar>& values)
+    {
+        mix(values.size());
+        for (const scalar v : values) mix(std::bit_cast<std::uint64_t>(v));
+    }
+    void add(const List<vector>& values)
+    {
+        mix(values.size());
+        for (const vector& v : values)
+            for (int k = 0; k < 3; ++k) mix(std::bit_cast<std::uint64_t>(v[k]));
+    }
+    void add(const List<globalId>& values)
+    {
+        mix(values.size());
+        for (const globalId v : values) mix(std::uint64_t(v));
+    }
+    globalId value() const { return globalId(state_); }
+
+private:
+    void mix(std::uint64_t bits) { state_ = (state_ ^ bits) * 0x100000001b3u; }
+    std::uint64_t state_ = 0xcbf29ce484222325u;
+};
+
+word position(const vector& x)
+{
+    char text[96];
+    std::snprintf(text, sizeof text, "(%.6g %.6g %.6g) m", x[0], x[1], x[2]);
+    return text;
+}
+
+// What is wrong with a table, if anything: the same rules hold for writing and reading
+class tableCheck
+{
+public:
+    tableCheck(const particleTable& table, const word& doing) : table_(table), doing_(doing) {}
+
+    void run() const
+    {
+        finite("position", table_.x);
+        for (const auto& [name, values] : table_.scalars) column(name, values);
+        for (const auto& [name, values] : table_.vectors) column(name, values);
+        for (const auto& [name, values] : table_.integers) sameLength(name, values.size());
+        for (const auto& [name, values] : table_.extra) finiteExtra(name, values);
+        names();
+    }
+
+private:
+    [[noreturn]] void fail(const word& reason) const { throw fatalError(doing_ + ": " + reason); }
+
+    void sameLength(const word& name, size_t length) const
+    {
+        if (length != table_.size())
+            fail("column '" + name + "' has " + std::to_string(length) + " rows but there are " +
+                 std::to_string(table_.size()) + " particles.");
+    }
+    template <class T>
+    void column(const word& name, const List<T>& values) const
+    {
+        sameLength(name, values.size());
+        finite(name, values);
+    }
+    static bool isFinite(scalar value) { return std::isfinite(value); }
+    static bool isFinite(const vector& value) { return value.allFinite(); }
+
+    template <class T>
+    void finite(const word& name, const List<T>& values) const
+    {
+        for (size_t i = 0; i < values.size(); ++i)
+            if (!isFinite(values[i]))
+                fail("column '" + name + "' is not a finite number at row " + std::to_string(i) +
+                     identity(i) + ", position " + position(table_.x[i]) +
+                     ".  The computation has diverged there; the last file written is sound.");
+    }
+    word identity(size_t row) const
+    {
+        const auto id = table_.integers.find("id");
+        const bool known = id != table_.integers.end() && row < id->second.size();
+        return known ? " (particle id " + std::to_string(id->second[row]) + ")" : word();
+    }
+    void finiteExtra(const word& name, const List<scalar>& values) const
+    {
+        for (size_t i = 0; i < values.size(); ++i)
+            if (!std::isfinite(values[i]))
+                fail("array '" + name + "' is not a finite number at index " + std::to_string(i) +
+                     ".");
+    }
+    void names() const
+    {
+        std::set<word> seen;
+        const auto note = [&](const auto& list, bool isColumn) {
+            for (const auto& [name, values] : list)
+            {
+                if (name.empty() || name == "." || name.find('/') != word::npos)
+                    fail("'" + name + "' cannot be the name of a column, array or attribute.");
+                if (isColumn && !seen.insert(name).second)
+                    fail("two columns have the name '" + name + "'.");
+            }
+        };
+        note(table_.scalars, true);
+        note(table_.vectors, true);
+        note(table_.integers, true);
+        note(table_.extra, false);
+        note(table_.attributes, false);
+    }
+
+    const particleTable& table_;
+    word doing_;
+};
+
+}  // namespace
+
+globalId checksumOf(const particleTable& table)
+{
+    checksum sum;
+    sum.add(table.x);
+    sum.add(table.scalars);
+    sum.add(table.vectors);
+    sum.add(table.integers);
+    sum.add(table.extra);
+    sum.add(table.attributes);
+    return sum.value();
+}
+
+void checkTable(const particleTable& table, const word& doing)
+{
+    tableCheck(table, doing).run();
+}
+
+}  // namespace ispf
