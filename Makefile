@@ -87,11 +87,11 @@ $(foreach a,$(patsubst %/,%,$(APPS)),$(eval $(call PROGRAM,$(a))))
 define TEST
 OBJ_test_$(1) := $$(patsubst %.C,$(B)/%.o,$$(wildcard tests/$(1)/*.C))
 $$(OBJ_test_$(1)): INC = $$(call quoted,$$(if $$(filter $(1),$$(LIBS)),$$(call ordered,$(1)),$$(LIBS))) -iquote tests
-$(B)/tests/$(1): $$(OBJ_test_$(1)) $$(if $$(filter $(1),$$(LIBS)),$$(call archivesOf,$(1)),$$(call archives))
+$(B)/testPrograms/$(1): $$(OBJ_test_$(1)) $$(if $$(filter $(1),$$(LIBS)),$$(call archivesOf,$(1)),$$(call archives))
 	@mkdir -p $$(@D); echo "LD   $$@"
 	@$$(CXX) $$(FLAGS_$$(OPT)) $$^ -o $$@ $$(PKG_TEST_$(1)) $$(LDLIBS)
 OBJECTS += $$(OBJ_test_$(1))
-testPrograms: $(B)/tests/$(1)
+testPrograms: $(B)/testPrograms/$(1)
 endef
 .PHONY: testPrograms
 testPrograms:
@@ -102,7 +102,7 @@ $(B)/%.o: %.C Makefile
 	@$(CXX) $(CXXFLAGS) $(INC) -MMD -MP -c $< -o $@
 
 test: all testPrograms ## build and run every test (at most 10 minutes)
-	@ISPF_BIN=$(B)/bin bin/runTests $(B)/tests
+	@ISPF_BIN=$(B)/bin bin/runTests $(B)/testPrograms
 
 demo: ## install what is missing, build, run the benchmark, draw it, compare with the published numbers
 	@bin/demo

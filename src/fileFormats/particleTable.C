@@ -11,10 +11,9 @@ scalar particleTable::scalarAttribute(const word& name) const
     const auto found = attributes.find(name);
     if (found == attributes.end())
     {
-        List<word> names;
-        for (const auto& [key, text] : attributes) names.push_back(key);
-        throw fatalError("The particles have no attribute '" + name + "'.\n" +
-                         validWords("attribute", names));
+        word names;
+        for (const auto& [key, text] : attributes) names += " " + key;
+        throw fatalError("The particles have no attribute '" + name + "'.  There are:" + names);
     }
     const word& text = found->second;
     scalar value = 0;
