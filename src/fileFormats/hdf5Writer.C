@@ -2,6 +2,8 @@
 #include "hdf5File.H"
 #include "hdf5Support.H"
 
+#include <algorithm>
+
 namespace ispf
 {
 
@@ -31,11 +33,14 @@ hdf5Id createInMemory()
     return checked(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "a file");
 }
 
-// A NUL-terminated string of fixed length: ParaView refuses strings of variable length
-hdf5Id stringType(size_t length)
+// A string of fixed length without a closing NUL: ParaView refuses strings of variable length and
+// takes a closing NUL for a part of the text
+hdf5Id stringType(const word& text)
 {
     hdf5Id type = checked(H5Tcopy(H5T_C_S1), H5Tclose, "a text");
-    if (H5Tset_size(type, length + 1) < 0) fail("a text");
+    if (H5Tset_size(type, std::max<size_t>(1, text.size())) < 0 ||
+        H5Tset_strpad(type, H5T_STR_NULLPAD) < 0)
+        fail("a text");
     return type;
 }
 
@@ -93,7 +98,7 @@ void hdf5Writer::write(const word& path, const List<std::uint8_t>& values)
 
 void hdf5Writer::write(const word& path, const word& text)
 {
-    writeData(path, stringType(text.size()), {}, text.c_str());
+    writeData(path, stringType(text), {}, text.c_str());
 }
 
 void hdf5Writer::writeAttribute(const word& group, const word& name, hid_t type, hid_t space,
@@ -116,7 +121,7 @@ void hdf5Writer::attribute(const word& group, const word& name, const List<globa
 void hdf5Writer::attribute(const word& group, const word& name, const word& text)
 {
     const hdf5Id space = checked(H5Screate(H5S_SCALAR), H5Sclose, name);
-    writeAttribute(group, name, stringType(text.size()), space, text.c_str());
+    writeAttribute(group, name, stringType(text), space, text.c_str());
 }
 
 word hdf5Writer::bytes()

@@ -11,7 +11,8 @@ namespace ispf
 namespace
 {
 
-// FNV-1a, eight bytes at a time, over names and values in the order of the table
+// Over names and values in the order of the table, eight bytes at a time.  The rotation brings the
+// high bits down again: with the multiplication alone, changes of sign and exponent can cancel.
 class checksum
 {
 public:
@@ -48,7 +49,7 @@ public:
     globalId value() const { return globalId(state_); }
 
 private:
-    void mix(std::uint64_t bits) { state_ = (state_ ^ bits) * 0x100000001b3u; }
+    void mix(std::uint64_t bits) { state_ = std::rotl(state_ ^ bits, 29) * 0x9e3779b97f4a7c15u; }
     std::uint64_t state_ = 0xcbf29ce484222325u;
 };
 

@@ -191,7 +191,8 @@ TEST_CASE("changed bytes are an error or change nothing, never a crash")
         changed[at] = char(changed[at] ^ 0x10);
         setContent(path, changed);
         const word error = errorOf([&] {
-            if (!sameBits(table, readParticles(path))) FAIL("a change was not noticed");
+            if (!sameBits(table, readParticles(path)))
+                FAIL("a change was not noticed at byte " << at);
         });
         if (!error.empty()) REQUIRE(says(error, path));
     }
