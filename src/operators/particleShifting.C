@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "particleShifting.H"
+#include "pairSums.H"
+
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+struct change
+{
+    vec4 x, Up;
+};
+
+// sum_j (r_mean/r_ij)^2 n_ij = r_mean^2 sum_j x_ij / r_ij^3, all neighbours of i
+ISPF_INLINE vector crowding(const particleCloud& cloud, const neighbourList& list, label i)
+{
+    simd4 sum = {};
+    scalar rSum = 0;
+    for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
+    {
+        const simd4 d = cloud.x[i].s - cloud.x[list.index[k]].s;
+        const scalar r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], r = std::sqrt(r2);
+        sum += d / (r2 * r);
+        rSum += r;
+    }
+    const scalar n = scalar(list.start[i + 1] - list.start[i]);
+    return rSum * rSum / (n * n) * vector(sum[0], sum[1], sum[2]);
+}
+
+struct shiftRows
+{
+    const particleCloud& cloud;
+    const neighbourList& list;
+    const kernelCorrection& correction;
+    const std::function<bool(const vector&)>& leaveAlone;
+    scalar alpha, most;
+
+    // Without a one-sided gradient the fields could not follow
+    bool moves(label i) const
+    {
+        return list.start[i] != list.start[i + 1] && !correction.same[i].isZero(0) &&
+               !(leaveAlone && leaveAlone(cloud.x[i].xyz()));
+    }
+};
+
+ISPF_HOT void evaluate(const shiftRows& s, label begin, label end, change* result)
+{
+    for (label i = begin; i < end; ++i, ++result)
+    {
+        *result = change{};
+        if (!s.moves(i)) continue;
+        vector dr = s.alpha * crowding(s.cloud, s.list, i);
+        const scalar size = dr.norm();
+        if (size > s.most) dr *= s.most / size;
+        pairSums sums;
+        sums.add(s.list, s.cloud.x.data(), s.cloud.Up.data(), i, s.list.start[i], s.list.mid[i]);
+        const vector w = s.correction.same[i].transpose() * dr;
+        result->x = vec4::from(dr);
+        result->Up.s = w[0] * sums.gx + w[1] * sums.gy + w[2] * sums.gz;
+    }
+}
+
+scalar maxSpeed(const particleCloud& cloud)
+{
+    const scalar most = maxOf(cloud.n(), [&](label begin, label end) {
+        scalar m = 0;
+        for (label i = begin; i < end; ++i) m = std::max(m, cloud.Up[i].xyz().squaredNorm());
+        return m;
+    });
+    return std::sqrt(std::max(most, 0.0));
+}
+
+}  // namespace
+
+particleShifting::particleShifting(const dictionary& dict)
+{
+    if (dict.chooseOrDefault("type", {"Xu", "none"}, "Xu") == "none") return;
+    constant_ = dict.getInRangeOrDefault("constant", 0, 1, 0.1);
+    maxShift_ = dict.getInRangeOrDefault("maxShift", 0, 0.2, 0.05);
+}
+
+word particleShifting::describe() const
+{
+    return on() ? "Xu, constant " + str(constant_) + ", at most " + str(maxShift_) + " dx" : "none";
+}
+
+void particleShifting::shift(particleCloud& cloud, const neighbourList& list,
+                             const kernelCorrection& correction, scalar dt,
+                             const std::function<bool(const vector&)>& leaveAlone) const
+{
+    const shiftRows rows{cloud,
+                         list,
+                         correction,
+                         leaveAlone,
+                         constant_ * maxSpeed(cloud) * dt,
+                         maxShift_ * cloud.dx};
+    if (!(rows.alpha > 0)) return;
+    cloud.fillGhosts(cloud.Up, false);
+
+    const label first = cloud.nSolid(), nFluid = cloud.n() - first;
+    List<change> changes(nFluid);
+    parallelFor(nFluid, [&](label begin, label end) {
+        evaluate(rows, first + begin, first + end, &changes[begin]);
+    });
+    parallelFor(nFluid, [&](label begin, label end) {
+        for (label k = begin; k < end; ++k)
+        {
+            cloud.x[first + k].s += changes[k].x.s;
+            cloud.Up[first + k].s += changes[k].Up.s;
+        }
+    });
+}
+
+}  // namespace ispf
