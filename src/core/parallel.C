@@ -3,6 +3,7 @@
 
 #include <omp.h>
 #include <algorithm>
+#include <exception>
 #include <limits>
 
 namespace ispf
@@ -49,9 +50,22 @@ void parallelFor(label n, const std::function<void(label, label)>& body, label g
         if (n > 0) body(0, n);
         return;
     }
+    // An exception may not leave a thread: the lowest range's is thrown again here
+    List<std::exception_ptr> thrown(parts);
 #pragma omp parallel for schedule(dynamic, 1)
     for (label k = 0; k < parts; ++k)
-        body(label(std::int64_t(n) * k / parts), label(std::int64_t(n) * (k + 1) / parts));
+    {
+        try
+        {
+            body(label(std::int64_t(n) * k / parts), label(std::int64_t(n) * (k + 1) / parts));
+        }
+        catch (...)
+        {
+            thrown[k] = std::current_exception();
+        }
+    }
+    for (const std::exception_ptr& e : thrown)
+        if (e) std::rethrow_exception(e);
 }
 
 scalar parallelSum(label n, const std::function<scalar(label, label)>& blockSum)

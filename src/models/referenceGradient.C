@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "referenceGradient.H"
+#include "messages.H"
+#include "parallel.H"
+
+namespace ispf
+{
+
+namespace
+{
+
+// Sum of w (x_j - x_i)(X_j - X_i)^T over the pairs [from, to) of row i that are no images
+ISPF_HOT void addOwn(const referenceNeighbours& pairs, const scalar* weight, const vec4* x,
+                     const vec4* X, label i, tensor& S)
+{
+    simd4 c0 = {}, c1 = {}, c2 = {};
+    const simd4 xi = x[i].s, Xi = X[i].s;
+    for (std::int64_t k = pairs.start[i]; k < pairs.mid[i]; ++k)
+    {
+        const label j = pairs.index[k];
+        const simd4 R = X[j].s - Xi, d = weight[k] * (x[j].s - xi);
+        c0 += d * R[0], c1 += d * R[1], c2 += d * R[2];
+    }
+    for (int a = 0; a < 3; ++a) S(a, 0) += c0[a], S(a, 1) += c1[a], S(a, 2) += c2[a];
+}
+
+// Sum of w (A_i + A_j)(X_j - X_i) over row i, A_j turned with the image
+ISPF_HOT void addForce(const referenceNeighbours& pairs, const structureReference& ref,
+                       const scalar* weight, const tensor* A, label i, vector& f)
+{
+    for (std::int64_t k = pairs.start[i]; k < pairs.start[i + 1]; ++k)
+    {
+        const label j = pairs.index[k], m = pairs.image[k];
+        const vector r = -weight[k] * pairs.separation(ref, i, k);
+        f += A[i] * r;
+        if (m == 0) f += A[j] * r;
+        else
+        {
+            const tensor& R = ref.images[m - 1].R;
+            f += R * (A[j] * (R.transpose() * r));
+        }
+    }
+}
+
+}  // namespace
+
+referenceGradient::referenceGradient(const structureReference& ref)
+    : ref_(ref),
+      pairs_(ref, ref.support),
+      X_(ref.n()),
+      weight_(size_t(pairs_.nPairs())),
+      B_(ref.n())
+{
+    for (label i = 0; i < ref.n(); ++i) X_[i] = vec4::from(ref.x0[i]);
+    const scalar dx2 = ref.dx * ref.dx;
+    parallelFor(
+        ref.n(),
+        [&](label begin, label end) {
+            for (label i = begin; i < end; ++i)
+            {
+                tensor moment = tensor::Zero();
+                for (std::int64_t k = pairs_.start[i]; k < pairs_.start[i + 1]; ++k)
+                {
+                    const vector r = pairs_.separation(ref, i, k);
+                    const scalar w = std::max(1e-6, 1 - r.norm() / ref.support);
+                    weight_[k] = w * w * w;
+                    moment += weight_[k] * r * r.transpose();
+                }
+                if (ref.nDims == 2) moment(2, 2) = 0.5 * moment.trace();
+                const scalar mean = moment.trace() / 3;
+                if (!(moment.determinant() > 1e-4 * mean * mean * mean) || mean < 1e-9 * dx2)
+                    throw fatalError(
+                        "Solid particle " + std::to_string(i) + " at (" + str(ref.x0[i][0]) + " " +
+                        str(ref.x0[i][1]) + " " + str(ref.x0[i][2]) + ") has " +
+                        std::to_string(pairs_.count(i)) + " solid neighbours, all in one " +
+                        (ref.nDims == 3 ? "plane" : "line") +
+                        ": the wall is less than two layers thick there. Use a smaller dx");
+                B_[i] = moment.inverse();
+            }
+        },
+        64);
+}
+
+void referenceGradient::evaluateRange(const List<vec4>& x, scalar shift, label begin, label end,
+                                      tensor* F) const
+{
+    for (label i = begin; i < end; ++i)
+    {
+        tensor S = tensor::Zero();
+        addOwn(pairs_, weight_.data(), x.data(), X_.data(), i, S);
+        for (std::int64_t k = pairs_.mid[i]; k < pairs_.start[i + 1]; ++k)
+        {
+            const isometry& image = ref_.images[pairs_.image[k] - 1];
+            const vector xj = image.R * x[pairs_.index[k]].xyz() + shift * image.t;
+            S -= weight_[k] * (xj - x[i].xyz()) * pairs_.separation(ref_, i, k).transpose();
+        }
+        F[i] = S * B_[i];
+        if (ref_.nDims == 2) F[i](2, 2) = shift;
+    }
+}
+
+void referenceGradient::evaluate(const List<vec4>& x, scalar shift, List<tensor>& F) const
+{
+    F.resize(ref_.n());
+    parallelFor(
+        ref_.n(), [&](label begin, label end) { evaluateRange(x, shift, begin, end, F.data()); },
+        256);
+}
+
+void referenceGradient::apply(const List<vec4>& x, List<tensor>& F) const
+{
+    evaluate(x, 1, F);
+}
+
+void referenceGradient::applyLinear(const List<vec4>& u, List<tensor>& dF) const
+{
+    evaluate(u, 0, dF);
+}
+
+void referenceGradient::forces(const List<tensor>& P, List<vec4>& f) const
+{
+    const label n = ref_.n();
+    List<tensor> A(n);
+    for (label i = 0; i < n; ++i) A[i] = ref_.volume() * P[i] * B_[i];
+    f.resize(std::max<size_t>(f.size(), size_t(n)));
+    parallelFor(
+        n,
+        [&](label begin, label end) {
+            for (label i = begin; i < end; ++i)
+            {
+                vector sum = vector::Zero();
+                addForce(pairs_, ref_, weight_.data(), A.data(), i, sum);
+                f[i] = vec4::from(sum);
+            }
+        },
+        256);
+}
+
+}  // namespace ispf

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "referenceNeighbours.H"
+#include "messages.H"
+#include "parallel.H"
+
+#include <algorithm>
+
+namespace ispf
+{
+
+namespace
+{
+
+struct candidate
+{
+    vector x;
+    std::int32_t index;
+    std::uint16_t image;
+};
+
+// Every particle, and every image that comes within `radius` of the particles' bounding box
+struct candidateGrid
+{
+    vector low;
+    scalar cell = 0;
+    std::array<label, 3> size = {};
+    List<label> start;
+    List<candidate> point;
+
+    candidateGrid(const structureReference& ref, scalar radius)
+    {
+        vector high = low = ref.x0[0];
+        for (const vector& x : ref.x0) low = low.cwiseMin(x), high = high.cwiseMax(x);
+        low.array() -= radius, high.array() += radius;
+        // hollow bodies have empty cells: fewer than a hundred per particle are made
+        cell = std::max(radius, std::cbrt((high - low).prod() / (100.0 * ref.n())));
+        for (int d = 0; d < 3; ++d) size[d] = label((high[d] - low[d]) / cell) + 1;
+
+        List<candidate> all;
+        for (label i = 0; i < ref.n(); ++i) all.push_back({ref.x0[i], i, 0});
+        for (size_t m = 0; m < ref.images.size(); ++m)
+            for (label i = 0; i < ref.n(); ++i)
+            {
+                const vector x = ref.images[m](ref.x0[i]);
+                if ((x.array() >= low.array()).all() && (x.array() <= high.array()).all())
+                    all.push_back({x, i, std::uint16_t(m + 1)});
+            }
+        sortByCell(all);
+    }
+
+    std::array<label, 3> cellOf(const vector& x) const
+    {
+        std::array<label, 3> c;
+        for (int d = 0; d < 3; ++d)
+            c[d] = std::clamp<label>(label((x[d] - low[d]) / cell), 0, size[d] - 1);
+        return c;
+    }
+    label key(const std::array<label, 3>& c) const
+    {
+        return (c[2] * size[1] + c[1]) * size[0] + c[0];
+    }
+
+    void sortByCell(const List<candidate>& all)
+    {
+        start.assign(size_t(size[0]) * size[1] * size[2] + 1, 0);
+        for (const candidate& c : all) ++start[key(cellOf(c.x)) + 1];
+        for (size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
+        List<label> next(start.begin(), start.end() - 1);
+        point.resize(all.size());
+        for (const candidate& c : all) point[next[key(cellOf(c.x))]++] = c;
+    }
+
+    template <class Visit>
+    void visitAround(const vector& x, Visit&& visit) const
+    {
+        const std::array<label, 3> c = cellOf(x);
+        for (label k = std::max(0, c[2] - 1); k <= std::min(size[2] - 1, c[2] + 1); ++k)
+            for (label j = std::max(0, c[1] - 1); j <= std::min(size[1] - 1, c[1] + 1); ++j)
+            {
+                const label line = (k * size[1] + j) * size[0];
+                const label to = start[line + std::min(size[0] - 1, c[0] + 1) + 1];
+                for (label p = start[line + std::max(0, c[0] - 1)]; p < to; ++p) visit(point[p]);
+            }
+    }
+};
+
+using rowEntry = std::pair<std::uint16_t, std::int32_t>;  // image, index: sorts as documented
+
+List<rowEntry> findRow(const structureReference& ref, const candidateGrid& grid, label i,
+                       scalar radius)
+{
+    List<rowEntry> row;
+    grid.visitAround(ref.x0[i], [&](const candidate& c) {
+        if (c.index == i && c.image == 0) return;
+        const scalar d = (ref.x0[i] - c.x).norm();
+        if (d > radius) return;
+        if (d < 1e-3 * ref.dx)
+            throw fatalError("Solid particles " + std::to_string(i) + " and " +
+                             (c.image ? "the image of " : "") + std::to_string(c.index) +
+                             " coincide at (" + str(c.x[0]) + " " + str(c.x[1]) + " " +
+                             str(c.x[2]) +
+                             "): no particle may be doubled or lie on a symmetry plane");
+        row.push_back({c.image, c.index});
+    });
+    std::sort(row.begin(), row.end());
+    return row;
+}
+
+}  // namespace
+
+referenceNeighbours::referenceNeighbours(const structureReference& ref, scalar radius)
+{
+    const candidateGrid grid(ref, radius);
+    List<List<rowEntry>> rows(ref.n());
+    parallelFor(ref.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i) rows[i] = findRow(ref, grid, i, radius);
+    });
+    start.push_back(0);
+    for (const List<rowEntry>& row : rows)
+    {
+        for (const rowEntry& e : row) image.push_back(e.first), index.push_back(e.second);
+        const auto own = std::partition_point(row.begin(), row.end(),
+                                              [](const rowEntry& e) { return e.first == 0; });
+        mid.push_back(start.back() + (own - row.begin()));
+        start.push_back(std::int64_t(index.size()));
+    }
+}
+
+}  // namespace ispf

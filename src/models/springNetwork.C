@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Particles tied by permanent linear springs: Monteleone et al., Eq. (2),
+//
+//     m_s f_s = k_e h sum_j (d0_sj - d_sj) (x_s - x_j)/d_sj,      k = k_e h
+//
+// with one stiffness k per link (springLinks).  A link to an image x_j' = R x_j + t stands in row
+// i, its inverse in row j; the energy counts each half, so that a quarter of a body between two
+// symmetry planes carries a quarter of its energy, and
+//
+//     f_i = -sum k (d - d0) n,   K_ii += A,   K_ij -= A R,   A = k [n n^T + (1 - d0/d)(I - n n^T)]
+#include "springLinks.H"
+#include "structureModel.H"
+#include "parallel.H"
+
+#include <algorithm>
+#include <set>
+
+namespace ispf
+{
+
+namespace
+{
+
+struct linkTable
+{
+    List<std::int64_t> start, mid;  // rows; [mid, next start) are links to images
+    List<std::int32_t> index;       // partner
+    List<std::uint16_t> image;      // 0: the partner itself, m: images[m - 1]
+    List<scalar> d0, k;
+    List<label>
+        slot;  // block of the tangent's row; -1: the diagonal (image of the particle itself)
+};
+
+// Rows of the links that move: between two clamped particles none is kept
+linkTable movingLinks(const springLinks& all, const List<char>& fixed)
+{
+    linkTable links;
+    links.start.push_back(0);
+    const referenceNeighbours& pairs = all.pairs;
+    for (label i = 0; i < pairs.n(); ++i)
+    {
+        for (std::int64_t p = pairs.start[i]; p < pairs.start[i + 1]; ++p)
+        {
+            if (p == pairs.mid[i]) links.mid.push_back(std::int64_t(links.index.size()));
+            if (fixed[i] && fixed[pairs.index[p]]) continue;
+            links.index.push_back(pairs.index[p]), links.image.push_back(pairs.image[p]);
+            links.d0.push_back(all.d0[p]), links.k.push_back(all.k[p]);
+        }
+        links.start.push_back(std::int64_t(links.index.size()));
+        if (pairs.mid[i] == pairs.start[i + 1]) links.mid.push_back(links.start.back());
+    }
+    return links;
+}
+
+ISPF_HOT void ownForce(const linkTable& links, const vec4* x, label i, simd4& f)
+{
+    const simd4 xi = x[i].s;
+    for (std::int64_t p = links.start[i]; p < links.mid[i]; ++p)
+    {
+        const simd4 e = xi - x[links.index[p]].s;
+        const scalar d = std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+        f -= links.k[p] * (1 - links.d0[p] / d) * e;
+    }
+}
+
+// A = k [(1 - g) n n^T + g I], g = 1 - d0/d
+ISPF_INLINE tensor linkBlock(const vector& e, scalar k, scalar d0, bool positive, int nDims)
+{
+    const scalar d2 = e.squaredNorm(), stretch = 1 - d0 / std::sqrt(d2);
+    const scalar g = positive && stretch < 0 ? 0 : stretch;
+    tensor A = (k * (1 - g) / d2) * e * e.transpose();
+    for (int a = 0; a < nDims; ++a) A(a, a) += k * g;
+    return A;
+}
+
+class springNetwork : public structureModel
+{
+public:
+    springNetwork(const dictionary& dict, const structureReference& ref) : structureModel(ref)
+    {
+        const springLinks all(dict, ref_);
+        G_ = all.G;
+        summary_ = "springNetwork, links " + all.rule + ", " +
+                   str(scalar(all.pairs.nPairs()) / n(), 3) + " per particle, G " + str(G_, 6) +
+                   " Pa, E " + str(3 * G_, 6) + " Pa";
+        links_ = movingLinks(all, ref_.fixed);
+        makePattern();
+    }
+
+    void force(const List<vec4>& x, List<vec4>& f) const override;
+    scalar energy(const List<vec4>& x) const override;
+    structureTangent tangentPattern() const override { return pattern_; }
+    void assembleTangent(const List<vec4>& x, tangentKind kind, structureTangent& K) const override;
+    scalar maxLinkForce(const List<vec4>& x) const override;
+    linkStrain strain(const List<vec4>& x) const override;
+    word description() const override { return summary_; }
+
+private:
+    void makePattern();
+    void tangentRow(const List<vec4>& x, bool positive, label i, structureTangent& K) const;
+
+    vector separation(const List<vec4>& x, label i, std::int64_t p) const
+    {
+        const vector xj = x[links_.index[p]].xyz();
+        return x[i].xyz() - (links_.image[p] ? ref_.images[links_.image[p] - 1](xj) : xj);
+    }
+    // The largest of value(d, d0, k) over all links
+    template <class Value>
+    scalar largest(const List<vec4>& x, const Value& value) const;
+
+    linkTable links_;
+    structureTangent pattern_;
+    word summary_;
+};
+
+void springNetwork::makePattern()
+{
+    links_.slot.resize(links_.index.size());
+    pattern_.rowStart.push_back(0);
+    for (label i = 0; i < n(); ++i)
+    {
+        std::set<std::int32_t> columns(links_.index.begin() + links_.start[i],
+                                       links_.index.begin() + links_.start[i + 1]);
+        columns.erase(i);
+        pattern_.column.insert(pattern_.column.end(), columns.begin(), columns.end());
+        const label first = pattern_.rowStart.back(), last = label(pattern_.column.size());
+        for (std::int64_t p = links_.start[i]; p < links_.start[i + 1]; ++p)
+        {
+            const auto at = std::lower_bound(pattern_.column.begin() + first, pattern_.column.end(),
+                                             links_.index[p]);
+            links_.slot[p] = links_.index[p] == i ? -1 : label(at - pattern_.column.begin());
+        }
+        pattern_.rowStart.push_back(last);
+    }
+    pattern_.value.assign(pattern_.column.size(), tensor::Zero());
+    pattern_.diagonal.assign(size_t(n()), tensor::Zero());
+}
+
+void springNetwork::force(const List<vec4>& x, List<vec4>& f) const
+{
+    f.resize(std::max<size_t>(f.size(), size_t(n())));
+    parallelFor(
+        n(),
+        [&](label begin, label end) {
+            for (label i = begin; i < end; ++i)
+            {
+                simd4 sum = {};
+                ownForce(links_, x.data(), i, sum);
+                f[i].s = sum;
+                for (std::int64_t p = links_.mid[i]; p < links_.start[i + 1]; ++p)
+                {
+                    const vector e = separation(x, i, p);
+                    f[i].s -= vec4::from(links_.k[p] * (1 - links_.d0[p] / e.norm()) * e).s;
+                }
+            }
+        },
+        256);
+}
+
+scalar springNetwork::energy(const List<vec4>& x) const
+{
+    return parallelSum(n(), [&](label begin, label end) {
+        scalar sum = 0;
+        for (label i = begin; i < end; ++i)
+            for (std::int64_t p = links_.start[i]; p < links_.start[i + 1]; ++p)
+            {
+                const scalar stretch = separation(x, i, p).norm() - links_.d0[p];
+                sum += 0.25 * links_.k[p] * stretch * stretch;
+            }
+        return sum;
+    });
+}
+
+void springNetwork::tangentRow(const List<vec4>& x, bool positive, label i,
+                               structureTangent& K) const
+{
+    K.diagonal[i].setZero();
+    for (label s = K.rowStart[i]; s < K.rowStart[i + 1]; ++s) K.value[s].setZero();
+    for (std::int64_t p = links_.start[i]; p < links_.start[i + 1]; ++p)
+    {
+        const tensor A =
+            linkBlock(separation(x, i, p), links_.k[p], links_.d0[p], positive, ref_.nDims);
+        K.diagonal[i] += A;
+        tensor& block = links_.slot[p] < 0 ? K.diagonal[i] : K.value[links_.slot[p]];
+        if (links_.image[p]) block -= A * ref_.images[links_.image[p] - 1].R;
+        else block -= A;
+    }
+}
+
+void springNetwork::assembleTangent(const List<vec4>& x, tangentKind kind,
+                                    structureTangent& K) const
+{
+    parallelFor(
+        n(),
+        [&](label begin, label end) {
+            for (label i = begin; i < end; ++i) tangentRow(x, kind == tangentKind::positive, i, K);
+        },
+        256);
+}
+
+template <class Value>
+scalar springNetwork::largest(const List<vec4>& x, const Value& value) const
+{
+    return maxOf(n(), [&](label begin, label end) {
+        scalar most = -std::numeric_limits<scalar>::infinity();
+        for (label i = begin; i < end; ++i)
+            for (std::int64_t p = links_.start[i]; p < links_.start[i + 1]; ++p)
+                most = std::max(most, value(separation(x, i, p).norm(), links_.d0[p], links_.k[p]));
+        return most;
+    });
+}
+
+scalar springNetwork::maxLinkForce(const List<vec4>& x) const
+{
+    return largest(x, [](scalar d, scalar d0, scalar k) { return k * std::abs(d - d0); });
+}
+
+linkStrain springNetwork::strain(const List<vec4>& x) const
+{
+    return {-largest(x, [](scalar d, scalar d0, scalar) { return 1 - d / d0; }),
+            largest(x, [](scalar d, scalar d0, scalar) { return d / d0 - 1; })};
+}
+
+}  // namespace
+
+std::unique_ptr<structureModel> newSpringNetwork(const dictionary& dict,
+                                                 const structureReference& ref)
+{
+    return std::make_unique<springNetwork>(dict, ref);
+}
+
+}  // namespace ispf
