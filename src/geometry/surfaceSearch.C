@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surfaceSearch.H"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace ispf
+{
+
+namespace
+{
+
+constexpr label leafSize = 4;
+constexpr int maxDepth = 64;
+
+// Nearest point of a triangle (Ericson 2005, Real-Time Collision Detection, sec. 5.1.5).
+// part: 0 facet, 1..3 edge from corner part-1, 4..6 corner part-4
+vector nearestOfTriangle(const std::array<vector, 3>& t, const vector& p, int& part)
+{
+    const vector ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
+    const scalar d1 = ab.dot(ap), d2 = ac.dot(ap);
+    if (d1 <= 0 && d2 <= 0) return part = 4, t[0];
+    const vector bp = p - t[1];
+    const scalar d3 = ab.dot(bp), d4 = ac.dot(bp);
+    if (d3 >= 0 && d4 <= d3) return part = 5, t[1];
+    const scalar vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return part = 1, t[0] + d1 / (d1 - d3) * ab;
+    const vector cp = p - t[2];
+    const scalar d5 = ab.dot(cp), d6 = ac.dot(cp);
+    if (d6 >= 0 && d5 <= d6) return part = 6, t[2];
+    const scalar vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return part = 3, t[0] + d2 / (d2 - d6) * ac;
+    const scalar va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+        return part = 2, t[1] + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (t[2] - t[1]);
+    part = 0;
+    return t[0] + vb / (va + vb + vc) * ab + vc / (va + vb + vc) * ac;
+}
+
+// Fraction of the segment from a along d at which it meets the triangle, else infinity
+// (Moeller & Trumbore 1997, J. Graphics Tools 2); grazing segments in the plane do not meet it
+scalar meets(const std::array<vector, 3>& t, const vector& a, const vector& d)
+{
+    constexpr scalar none = std::numeric_limits<scalar>::infinity();
+    const vector e1 = t[1] - t[0], e2 = t[2] - t[0], h = d.cross(e2);
+    const scalar det = e1.dot(h);
+    if (std::abs(det) <= 1e-14 * d.norm() * e1.norm() * e2.norm()) return none;
+    constexpr scalar slack = 1e-9;  // so that a segment through a shared edge never slips through
+    const vector s = a - t[0], q = s.cross(e1);
+    const scalar u = s.dot(h) / det, v = d.dot(q) / det, f = e2.dot(q) / det;
+    if (u < -slack || v < -slack || u + v > 1 + slack || f < 0 || f > 1) return none;
+    return f;
+}
+
+bool overlaps(const boundBox& box, const vector& a, const vector& inverse, scalar limit)
+{
+    scalar low = 0, high = limit;
+    for (int k = 0; k < 3; ++k)
+    {
+        if (std::isinf(inverse[k]))  // parallel to the slab: 0 times infinity must not decide
+        {
+            if (a[k] < box.min[k] || a[k] > box.max[k]) return false;
+            continue;
+        }
+        const scalar t0 = (box.min[k] - a[k]) * inverse[k], t1 = (box.max[k] - a[k]) * inverse[k];
+        low = std::max(low, std::min(t0, t1));
+        high = std::min(high, std::max(t0, t1));
+    }
+    return low <= high * (1 + 1e-12) + 1e-300;
+}
+
+}  // namespace
+
+surfaceSearch::surfaceSearch(triSurface surface) : surface_(std::move(surface))
+{
+    for (label t = 0; t < surface_.size(); ++t) order_.push_back(t);
+    if (!order_.empty()) build(0, surface_.size());
+    for (const label t : order_)
+        corners_.push_back({surface_.corner(t, 0), surface_.corner(t, 1), surface_.corner(t, 2)});
+    setNormals();
+}
+
+label surfaceSearch::build(label begin, label end)
+{
+    const label index = label(nodes_.size());
+    nodes_.emplace_back();
+    node n;
+    n.begin = begin, n.end = end;
+    boundBox centres;
+    for (label k = begin; k < end; ++k)
+    {
+        for (int c = 0; c < 3; ++c) n.box.add(surface_.corner(order_[k], c));
+        centres.add(surface_.centre(order_[k]));
+    }
+    if (end - begin > leafSize)
+    {
+        int axis;
+        (centres.max - centres.min).maxCoeff(&axis);
+        const label half = (begin + end) / 2;
+        std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
+                         [&](label s, label t) {
+                             const scalar a = surface_.centre(s)[axis];
+                             const scalar b = surface_.centre(t)[axis];
+                             return a < b || (a == b && s < t);
+                         });
+        build(begin, half);
+        n.second = build(half, end);
+    }
+    nodes_[index] = n;
+    return index;
+}
+
+void surfaceSearch::setNormals()
+{
+    std::map<std::pair<label, label>, vector> edge;
+    nodeNormal_.assign(surface_.nodes.size(), vector::Zero());
+    for (label t = 0; t < surface_.size(); ++t)
+    {
+        const vector n = surface_.normal(t);
+        facetNormal_.push_back(n);
+        for (int k = 0; k < 3; ++k)
+        {
+            const label a = surface_.triangles[t][k], b = surface_.triangles[t][(k + 1) % 3];
+            const auto sum = edge.emplace(std::minmax(a, b), vector::Zero()).first;
+            sum->second += n;
+            const vector u = surface_.corner(t, (k + 1) % 3) - surface_.corner(t, k);
+            const vector v = surface_.corner(t, (k + 2) % 3) - surface_.corner(t, k);
+            nodeNormal_[a] += std::atan2(u.cross(v).norm(), u.dot(v)) * n;
+        }
+    }
+    edgeNormal_.resize(surface_.size());
+    for (label t = 0; t < surface_.size(); ++t)
+        for (int k = 0; k < 3; ++k)
+        {
+            const label a = surface_.triangles[t][k], b = surface_.triangles[t][(k + 1) % 3];
+            edgeNormal_[t][k] = edge[std::minmax(a, b)].normalized();
+        }
+    for (vector& n : nodeNormal_) n.normalize();
+}
+
+void surfaceSearch::finish(surfacePoint& best, int part) const
+{
+    best.found = true;
+    if (part == 0) best.normal = facetNormal_[best.triangle];
+    else if (part < 4)
+        best.feature = surfaceFeature::edge, best.normal = edgeNormal_[best.triangle][part - 1];
+    else
+    {
+        best.feature = surfaceFeature::corner;
+        best.normal = nodeNormal_[surface_.triangles[best.triangle][part - 4]];
+    }
+}
+
+surfacePoint surfaceSearch::nearest(const vector& p, scalar radius) const
+{
+    surfacePoint best;
+    if (nodes_.empty()) return best;
+    scalar limit = radius < 1e150 ? radius * radius : std::numeric_limits<scalar>::max();
+    int bestPart = 0;
+    std::pair<label, scalar> stack[maxDepth];
+    int top = 0;
+    stack[top++] = {0, nodes_[0].box.distSqr(p)};
+    while (top > 0)
+    {
+        const auto [i, d] = stack[--top];
+        if (d > limit) continue;
+        const node& n = nodes_[i];
+        if (n.second == 0)
+        {
+            for (label k = n.begin; k < n.end; ++k)
+            {
+                int part;
+                const vector q = nearestOfTriangle(corners_[k], p, part);
+                const scalar d2 = (q - p).squaredNorm();
+                if (d2 > limit || (d2 == limit && best.triangle >= 0)) continue;
+                limit = d2;
+                best.point = q;
+                best.triangle = order_[k];
+                bestPart = part;
+            }
+            continue;
+        }
+        const scalar d1 = nodes_[i + 1].box.distSqr(p), d2 = nodes_[n.second].box.distSqr(p);
+        if (d1 < d2) stack[top++] = {n.second, d2}, stack[top++] = {i + 1, d1};
+        else stack[top++] = {i + 1, d1}, stack[top++] = {n.second, d2};
+    }
+    if (best.triangle < 0) return best;
+    best.distance = std::sqrt(limit);
+    finish(best, bestPart);
+    return best;
+}
+
+scalar surfaceSearch::signedDistance(const vector& p, scalar radius) const
+{
+    const surfacePoint q = nearest(p, radius);
+    return q.found ? q.signedDistance(p) : std::numeric_limits<scalar>::infinity();
+}
+
+bool surfaceSearch::within(const vector& p, scalar radius) const
+{
+    if (nodes_.empty()) return false;
+    const scalar limit = radius * radius;
+    label stack[maxDepth];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0)
+    {
+        const label i = stack[--top];
+        const node& n = nodes_[i];
+        if (n.box.distSqr(p) > limit) continue;
+        if (n.second != 0)
+        {
+            stack[top++] = n.second, stack[top++] = i + 1;
+            continue;
+        }
+        for (label k = n.begin; k < n.end; ++k)
+        {
+            int part;
+            if ((nearestOfTriangle(corners_[k], p, part) - p).squaredNorm() <= limit) return true;
+        }
+    }
+    return false;
+}
+
+// visit(k) gets each triangle near the segment and returns the fraction beyond which nothing counts
+template <class Visit>
+void surfaceSearch::alongSegment(const vector& a, const vector& b, Visit&& visit) const
+{
+    if (nodes_.empty()) return;
+    const vector inverse = (b - a).cwiseInverse();
+    scalar limit = 1;
+    label stack[maxDepth];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0 && limit >= 0)
+    {
+        const label i = stack[--top];
+        const node& n = nodes_[i];
+        if (!overlaps(n.box, a, inverse, limit)) continue;
+        if (n.second != 0) stack[top++] = n.second, stack[top++] = i + 1;
+        else
+            for (label k = n.begin; k < n.end && limit >= 0; ++k) limit = visit(k);
+    }
+}
+
+bool surfaceSearch::crosses(const vector& a, const vector& b) const
+{
+    bool hit = false;
+    const vector d = b - a;
+    alongSegment(a, b, [&](label k) {
+        hit = meets(corners_[k], a, d) <= 1;
+        return hit ? scalar(-1) : scalar(1);
+    });
+    return hit;
+}
+
+surfaceHit surfaceSearch::firstHit(const vector& a, const vector& b) const
+{
+    surfaceHit hit;
+    const vector d = b - a;
+    alongSegment(a, b, [&](label k) {
+        const scalar f = meets(corners_[k], a, d);
+        if (f <= 1 && (!hit.found || f < hit.fraction)) hit = {true, a + f * d, f, order_[k]};
+        return hit.fraction;
+    });
+    return hit;
+}
+
+}  // namespace ispf

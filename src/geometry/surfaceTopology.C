@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surfaceTopology.H"
+
+#include "windingNumber.H"
+#include <algorithm>
+
+namespace ispf
+{
+
+namespace
+{
+
+// One side of a triangle, sorted so that the sides of one edge stand together
+struct side
+{
+    label low, high;  // nodes of the edge, low < high
+    label triangle;
+    bool forward;  // runs from low to high
+
+    bool sameEdge(const side& o) const { return low == o.low && high == o.high; }
+    bool operator<(const side& o) const
+    {
+        return std::tie(low, high, triangle) < std::tie(o.low, o.high, o.triangle);
+    }
+};
+
+List<side> sortedSides(const triSurface& s)
+{
+    List<side> sides;
+    sides.reserve(3 * s.triangles.size());
+    for (label t = 0; t < s.size(); ++t)
+        for (int k = 0; k < 3; ++k)
+        {
+            const label a = s.triangles[t][k], b = s.triangles[t][(k + 1) % 3];
+            sides.push_back({std::min(a, b), std::max(a, b), t, a < b});
+        }
+    std::sort(sides.begin(), sides.end());
+    return sides;
+}
+
+// Calls f(first, last) for the range of sides of each edge
+template <class F>
+void forEdges(const List<side>& sides, F&& f)
+{
+    for (size_t i = 0, j; i < sides.size(); i = j)
+    {
+        for (j = i + 1; j < sides.size() && sides[j].sameEdge(sides[i]);) ++j;
+        f(i, j);
+    }
+}
+
+// Neighbours over edges shared by exactly two triangles; second: the two run the same way
+List<List<std::pair<label, bool>>> neighbours(const triSurface& s)
+{
+    List<List<std::pair<label, bool>>> next(s.size());
+    const List<side> sides = sortedSides(s);
+    forEdges(sides, [&](size_t i, size_t j) {
+        if (j - i != 2) return;
+        const bool same = sides[i].forward == sides[i + 1].forward;
+        next[sides[i].triangle].push_back({sides[i + 1].triangle, same});
+        next[sides[i + 1].triangle].push_back({sides[i].triangle, same});
+    });
+    return next;
+}
+
+void turn(triSurface& s, label t)
+{
+    std::swap(s.triangles[t][1], s.triangles[t][2]);
+}
+
+// Turns triangles so that they agree with the first one of their component
+label makeConsistent(triSurface& s)
+{
+    const auto next = neighbours(s);
+    List<char> state(s.size(), 0);  // 0 unseen, 1 keep, 2 turn
+    label turned = 0;
+    List<label> stack;
+    for (label seed = 0; seed < s.size(); ++seed)
+    {
+        if (state[seed]) continue;
+        state[seed] = 1;
+        stack.push_back(seed);
+        while (!stack.empty())
+        {
+            const label t = stack.back();
+            stack.pop_back();
+            for (const auto& [other, same] : next[t])
+            {
+                if (state[other]) continue;
+                state[other] = same ? 3 - state[t] : state[t];
+                stack.push_back(other);
+            }
+        }
+    }
+    for (label t = 0; t < s.size(); ++t)
+        if (state[t] == 2) turn(s, t), ++turned;
+    return turned;
+}
+
+}  // namespace
+
+List<std::array<label, 2>> openHalfEdges(const triSurface& s)
+{
+    List<std::array<label, 2>> open;
+    const List<side> sides = sortedSides(s);
+    forEdges(sides, [&](size_t i, size_t j) {
+        label balance = 0;
+        for (size_t k = i; k < j; ++k) balance += sides[k].forward ? 1 : -1;
+        for (; balance > 0; --balance) open.push_back({sides[i].low, sides[i].high});
+        for (; balance < 0; ++balance) open.push_back({sides[i].high, sides[i].low});
+    });
+    return open;
+}
+
+closednessReport checkClosed(const triSurface& s)
+{
+    closednessReport report;
+    const List<side> sides = sortedSides(s);
+    forEdges(sides, [&](size_t i, size_t j) {
+        if (j - i == 2 && sides[i].forward == sides[i + 1].forward) ++report.flippedPairs;
+    });
+    scalar longest = -1;
+    for (const auto& [a, b] : openHalfEdges(s))
+    {
+        const scalar length = (s.nodes[b] - s.nodes[a]).norm();
+        ++report.openEdges;
+        report.openLength += length;
+        if (length > longest) longest = length, report.openAt = 0.5 * (s.nodes[a] + s.nodes[b]);
+    }
+    return report;
+}
+
+word closednessReport::describe(scalar unit) const
+{
+    if (closed()) return "closed";
+    const vector at = openAt / unit;
+    word text;
+    if (openEdges > 0)
+        text = std::to_string(openEdges) + " open edges of total length " + str(openLength / unit) +
+               ", the longest at (" + str(at[0]) + " " + str(at[1]) + " " + str(at[2]) + ")";
+    if (flippedPairs > 0)
+        text += (text.empty() ? "" : "; ") + std::to_string(flippedPairs) +
+                " edges whose two triangles disagree on the outside";
+    return text;
+}
+
+List<label> connectedComponents(const triSurface& s)
+{
+    const auto next = neighbours(s);
+    List<label> component(s.size(), -1), stack;
+    label count = 0;
+    for (label seed = 0; seed < s.size(); ++seed)
+    {
+        if (component[seed] >= 0) continue;
+        stack.push_back(seed);
+        component[seed] = count;
+        while (!stack.empty())
+        {
+            const label t = stack.back();
+            stack.pop_back();
+            for (const auto& [other, same] : next[t])
+                if (component[other] < 0) component[other] = count, stack.push_back(other);
+        }
+        ++count;
+    }
+    return component;
+}
+
+label orientOutward(triSurface& s)
+{
+    label turned = makeConsistent(s);
+    const List<label> component = connectedComponents(s);
+    const label n = s.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+    List<triSurface> parts;
+    List<char> inward(n, 0);
+    for (label c = 0; c < n; ++c)
+    {
+        parts.push_back(s.subset([&](label t) { return component[t] == c; }));
+        inward[c] = parts[c].volume() < 0;
+    }
+    for (label c = 0; c < n && n > 1; ++c)  // the wall of a cavity lies inside an odd number
+    {
+        label depth = 0;
+        for (label o = 0; o < n; ++o)
+            if (o != c && std::abs(windingNumber(parts[o]).value(parts[c].centre(0))) > 0.5)
+                ++depth;
+        if (depth % 2) inward[c] = !inward[c];
+    }
+    for (label t = 0; t < s.size(); ++t)
+        if (inward[component[t]]) turn(s, t), ++turned;
+    return turned;
+}
+
+}  // namespace ispf

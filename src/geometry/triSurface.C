@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "triSurface.H"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace ispf
+{
+
+boundBox::boundBox()
+    : min(vector::Constant(std::numeric_limits<scalar>::max())),
+      max(vector::Constant(-std::numeric_limits<scalar>::max()))
+{
+}
+
+void boundBox::add(const vector& p)
+{
+    min = min.cwiseMin(p);
+    max = max.cwiseMax(p);
+}
+
+void boundBox::add(const boundBox& box)
+{
+    min = min.cwiseMin(box.min);
+    max = max.cwiseMax(box.max);
+}
+
+scalar boundBox::distSqr(const vector& p) const
+{
+    const vector zero = vector::Zero();
+    return (min - p).cwiseMax(p - max).cwiseMax(zero).squaredNorm();
+}
+
+vector triSurface::areaVector(label t) const
+{
+    return 0.5 * (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
+}
+
+vector triSurface::normal(label t) const
+{
+    const vector a = areaVector(t);
+    const scalar length = a.norm();
+    return length > 0 ? vector(a / length) : vector(vector::Zero());
+}
+
+label triSurface::patchIndex(const word& name) const
+{
+    const auto at = std::find(patchNames.begin(), patchNames.end(), name);
+    if (at == patchNames.end())
+        throw fatalError("The surface has no patch " + name + ". " +
+                         validWords("name", patchNames));
+    return label(at - patchNames.begin());
+}
+
+label triSurface::addPatch(const word& name)
+{
+    const auto at = std::find(patchNames.begin(), patchNames.end(), name);
+    const label index = label(at - patchNames.begin());
+    if (at == patchNames.end()) patchNames.push_back(name);
+    return index;
+}
+
+void triSurface::add(const vector& a, const vector& b, const vector& c, label patchI)
+{
+    const label n = label(nodes.size());
+    nodes.insert(nodes.end(), {a, b, c});
+    triangles.push_back({n, n + 1, n + 2});
+    patch.push_back(patchI);
+}
+
+void triSurface::append(const triSurface& other)
+{
+    List<label> newPatch;
+    for (const word& name : other.patchNames) newPatch.push_back(addPatch(name));
+    const label n = label(nodes.size());
+    nodes.insert(nodes.end(), other.nodes.begin(), other.nodes.end());
+    for (label t = 0; t < other.size(); ++t)
+    {
+        const triangle& f = other.triangles[t];
+        triangles.push_back({f[0] + n, f[1] + n, f[2] + n});
+        patch.push_back(newPatch[other.patch[t]]);
+    }
+}
+
+void triSurface::scale(scalar factor)
+{
+    for (vector& p : nodes) p *= factor;
+}
+
+void triSurface::flip()
+{
+    for (triangle& f : triangles) std::swap(f[1], f[2]);
+}
+
+namespace
+{
+
+// Nodes by cell of a grid as wide as the tolerance: a partner lies in the same or a neighbour cell
+class nodeGrid
+{
+public:
+    nodeGrid(const vector& origin, scalar width) : origin_(origin), width_(width) {}
+
+    label find(const vector& p, const List<vector>& nodes) const
+    {
+        const auto c = cell(p);
+        for (std::int64_t k = c[2] - 1; k <= c[2] + 1; ++k)
+            for (std::int64_t j = c[1] - 1; j <= c[1] + 1; ++j)
+                for (std::int64_t i = c[0] - 1; i <= c[0] + 1; ++i)
+                {
+                    const auto bucket = cells_.find(key({i, j, k}));
+                    if (bucket == cells_.end()) continue;
+                    for (const label n : bucket->second)
+                        if ((nodes[n] - p).norm() <= width_) return n;
+                }
+        return -1;
+    }
+    void insert(const vector& p, label n) { cells_[key(cell(p))].push_back(n); }
+
+private:
+    using triple = std::array<std::int64_t, 3>;
+    triple cell(const vector& p) const
+    {
+        triple c;
+        for (int k = 0; k < 3; ++k) c[k] = std::int64_t(std::floor((p[k] - origin_[k]) / width_));
+        return c;
+    }
+    static std::uint64_t key(const triple& c)
+    {
+        return std::uint64_t(c[0]) * 73856093u ^ std::uint64_t(c[1]) * 19349663u * 65537u ^
+               std::uint64_t(c[2]) * 83492791u * 4294967291u;
+    }
+
+    vector origin_;
+    scalar width_;
+    std::unordered_map<std::uint64_t, List<label>> cells_;
+};
+
+}  // namespace
+
+void triSurface::weld(scalar tolerance)
+{
+    // A zero tolerance joins equal coordinates; the grid still needs a width that is not zero
+    const boundBox box = bounds();
+    const scalar width = std::max(tolerance, 1e-12 * std::max(box.diagonal(), 1e-300));
+    nodeGrid grid(box.min, width);
+    List<vector> kept;
+    List<label> newNode(nodes.size(), -1);
+    List<triangle> keptTriangles;
+    List<label> keptPatch;
+    for (label t = 0; t < size(); ++t)
+    {
+        triangle f = triangles[t];
+        for (label& n : f)
+        {
+            if (newNode[n] < 0)
+            {
+                label& index = newNode[n];
+                index = grid.find(nodes[n], kept);
+                if (index < 0)
+                {
+                    index = label(kept.size());
+                    grid.insert(nodes[n], index);
+                    kept.push_back(nodes[n]);
+                }
+            }
+            n = newNode[n];
+        }
+        if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
+        keptTriangles.push_back(f);
+        keptPatch.push_back(patch[t]);
+    }
+    nodes = std::move(kept);
+    triangles = std::move(keptTriangles);
+    patch = std::move(keptPatch);
+}
+
+triSurface triSurface::subset(const std::function<bool(label)>& keep) const
+{
+    triSurface part;
+    part.patchNames = patchNames;
+    List<label> newNode(nodes.size(), -1);
+    for (label t = 0; t < size(); ++t)
+    {
+        if (!keep(t)) continue;
+        triangle f = triangles[t];
+        for (label& n : f)
+        {
+            if (newNode[n] < 0)
+            {
+                newNode[n] = label(part.nodes.size());
+                part.nodes.push_back(nodes[n]);
+            }
+            n = newNode[n];
+        }
+        part.triangles.push_back(f);
+        part.patch.push_back(patch[t]);
+    }
+    return part;
+}
+
+triSurface triSurface::patchSurface(const word& name) const
+{
+    const label wanted = patchIndex(name);
+    triSurface part = subset([&](label t) { return patch[t] == wanted; });
+    part.patchNames = {name};
+    std::fill(part.patch.begin(), part.patch.end(), 0);
+    return part;
+}
+
+scalar triSurface::area() const
+{
+    scalar sum = 0;
+    for (label t = 0; t < size(); ++t) sum += areaVector(t).norm();
+    return sum;
+}
+
+scalar triSurface::volume() const
+{
+    // Divergence theorem; a reference point amid the surface keeps rounding small
+    const vector o = empty() ? vector(vector::Zero()) : bounds().centre();
+    scalar sum = 0;
+    for (label t = 0; t < size(); ++t) sum += areaVector(t).dot(corner(t, 0) - o) / 3;
+    return sum;
+}
+
+boundBox triSurface::bounds() const
+{
+    boundBox box;
+    for (const vector& p : nodes) box.add(p);
+    return box;
+}
+
+}  // namespace ispf

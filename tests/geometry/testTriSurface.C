@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "halfSpace.H"
+#include "surfaceTopology.H"
+#include "testShapes.H"
+
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+using namespace ispf;
+using namespace ispf::testShapes;
+
+namespace
+{
+
+word scratch(const word& name)
+{
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("ispfGeometry." + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    return (folder / name).string();
+}
+
+triSurface twoSolids()
+{
+    triSurface s = box({0, 0, 0}, {1, 2, 3}, "lower");
+    s.append(box({0, 0, 5}, {1, 1, 6}, "upper"));
+    return s;
+}
+
+}  // namespace
+
+TEST_CASE("volume, area and bounds of a box are exact")
+{
+    const triSurface s = box({1, 2, 3}, {2, 4, 6});
+    CHECK(s.volume() == doctest::Approx(6).epsilon(1e-14));
+    CHECK(s.area() == doctest::Approx(22).epsilon(1e-14));
+    CHECK((s.bounds().max - vector(2, 4, 6)).norm() == 0);
+    CHECK(checkClosed(s).closed());
+}
+
+TEST_CASE("the sphere's volume converges with the square of the triangle size")
+{
+    const scalar exact = 4 * M_PI / 3;
+    const scalar coarse = exact - sphere({0, 0, 0}, 1, 3).volume();
+    const scalar fine = exact - sphere({0, 0, 0}, 1, 4).volume();
+    CHECK(coarse > 0);
+    CHECK(coarse / fine == doctest::Approx(4).epsilon(0.02));
+}
+
+TEST_CASE("welding joins unsewn faces and only nodes within the tolerance")
+{
+    triSurface loose;
+    loose.addPatch("box");
+    const triSurface s = box({0, 0, 0}, {1, 1, 1});
+    for (label t = 0; t < s.size(); ++t)
+    {
+        const vector gap = (t % 3) * 1e-6 * vector(1, -1, 1);
+        loose.add(s.corner(t, 0) + gap, s.corner(t, 1) + gap, s.corner(t, 2) + gap, 0);
+    }
+    CHECK(checkClosed(loose).openEdges == 36);
+    triSurface tooTight = loose;
+    tooTight.weld(1e-7);
+    CHECK_FALSE(checkClosed(tooTight).closed());
+    loose.weld(1e-5);
+    CHECK(loose.nodes.size() == 8);
+    CHECK(checkClosed(loose).closed());
+}
+
+TEST_CASE("an open surface is told with the place of the gap")
+{
+    triSurface s = box({0, 0, 0}, {1, 1, 1});
+    s.triangles.pop_back();  // on the face x = 1
+    s.patch.pop_back();
+    const closednessReport report = checkClosed(s);
+    CHECK(report.openEdges == 3);
+    CHECK(report.openAt[0] == 1);
+    CHECK(report.openLength == doctest::Approx(2 + std::sqrt(2.0)));
+}
+
+TEST_CASE("orientation is repaired, also of a cavity")
+{
+    triSurface s = box({0, 0, 0}, {4, 4, 4});
+    s.append(box({1, 1, 1}, {2, 2, 2}));
+    for (label t = 0; t < s.size(); t += 3) std::swap(s.triangles[t][0], s.triangles[t][1]);
+    CHECK_FALSE(checkClosed(s).closed());
+    CHECK(orientOutward(s) > 0);
+    CHECK(checkClosed(s).closed());
+    CHECK(s.volume() == doctest::Approx(64 - 1).epsilon(1e-13));
+    CHECK(orientOutward(s) == 0);
+}
+
+TEST_CASE("STL files give back solids, names and corners")
+{
+    const triSurface s = twoSolids();
+    writeSTL(s, scratch("two.stl"));
+    const triSurface ascii = readSTL(scratch("two.stl"));
+    CHECK(ascii.patchNames == s.patchNames);
+    CHECK(ascii.patchSurface("lower").volume() == doctest::Approx(6).epsilon(1e-14));
+    CHECK(ascii.patchSurface("upper").volume() == doctest::Approx(1).epsilon(1e-14));
+    for (label t = 0; t < s.size(); ++t)
+        for (int k = 0; k < 3; ++k) CHECK((ascii.corner(t, k) - s.corner(t, k)).norm() == 0);
+
+    writeSTL(s, scratch("two.stlb"), true);
+    const triSurface binary = readSTL(scratch("two.stlb"));
+    CHECK(binary.patchNames == List<word>{"two"});
+    CHECK(binary.volume() == doctest::Approx(7).epsilon(1e-6));
+}
+
+TEST_CASE("a binary STL file whose header says solid is binary, and a cut one is refused")
+{
+    const word path = scratch("trap.stl");
+    writeSTL(box({0, 0, 0}, {1, 1, 1}), path, true);
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    file.write("solid spring", 12);
+    file.close();
+    CHECK(readSTL(path).volume() == doctest::Approx(1));
+    std::filesystem::resize_file(path, 84 + 50 * 11);
+    CHECK_THROWS_AS(readSTL(path), fatalError);
+    CHECK_THROWS_AS(readSTL(scratch("absent.stl")), fatalError);
+}
+
+TEST_CASE("volumes cut by planes are exact")
+{
+    const triSurface s = box({-1, -1, -1}, {1, 1, 1});
+    const halfSpace x{vector(0.25, 0, 0), vector(1, 0, 0)}, y{vector(0, 0, 0), vector(0, -1, 0)};
+    CHECK(clippedVolume(s, {x}) == doctest::Approx(1.25 * 4).epsilon(1e-12));
+    CHECK(clippedVolume(s, {x, y}) == doctest::Approx(1.25 * 2).epsilon(1e-12));
+    // The corner cut off by x + y + z = 1 is a tetrahedron of volume 2^3/6
+    const halfSpace oblique{vector(1, 0, 0), vector(1, 1, 1).normalized()};
+    CHECK(clippedVolume(s, {oblique}) == doctest::Approx(8 - 8.0 / 6).epsilon(1e-12));
+    // Quarter and three oblique cuts of a polyhedron with no symmetry: parts add up to the whole
+    const triSurface ball = sphere({0.1, -0.05, 0.02}, 1, 3);
+    const halfSpace cut{vector(0.1, 0.2, 0), vector(1, 2, -1).normalized()};
+    const halfSpace rest{cut.point, -cut.normal};
+    for (const List<halfSpace>& others : {List<halfSpace>{}, List<halfSpace>{x, y, oblique}})
+    {
+        List<halfSpace> one = others, two = others;
+        one.push_back(cut), two.push_back(rest);
+        CHECK(clippedVolume(ball, one) + clippedVolume(ball, two) ==
+              doctest::Approx(clippedVolume(ball, others)).epsilon(1e-10));
+    }
+}
+
+TEST_CASE("a half model's cut face is dropped and its images complete it")
+{
+    const halfSpace half{vector::Zero(), vector(-1, 0, 0)};
+    triSurface s = box({0, 0, 0}, {1, 1, 1});
+    s = clipped(s, half, 1e-9);
+    CHECK(s.size() == 10);
+    const triSurface whole = withImages(s, {half}, 2);
+    CHECK(checkClosed(whole).closed());
+    CHECK(whole.volume() == doctest::Approx(2).epsilon(1e-12));
+    CHECK(withImages(s, {half}, 0.5).size() < whole.size());
+}
