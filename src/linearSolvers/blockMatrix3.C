@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "blockMatrix3.H"
+
+#include "parallel.H"
+
+namespace ispf
+{
+
+namespace
+{
+
+// Columns of a block times the components of one vector
+ISPF_INLINE simd4 product(const tensor& B, const vec4& x)
+{
+    const double* b = B.data();
+    return simd4{b[0], b[1], b[2], 0} * x.s[0] + simd4{b[3], b[4], b[5], 0} * x.s[1] +
+           simd4{b[6], b[7], b[8], 0} * x.s[2];
+}
+
+ISPF_HOT void productRange(const blockMatrix3& A, label begin, label end, const vec4* x, vec4* y)
+{
+    for (label i = begin; i < end; ++i)
+    {
+        simd4 sum = product(A.diagonal[i], x[i]);
+        for (label k = A.rowStart[i]; k < A.rowStart[i + 1]; ++k)
+            sum += product(A.value[k], x[A.column[k]]);
+        y[i].s = sum;
+    }
+}
+
+}  // namespace
+
+void blockMatrix3::apply(const List<vec4>& x, List<vec4>& y) const
+{
+    parallelFor(size(), [&](label i, label e) { productRange(*this, i, e, x.data(), y.data()); });
+}
+
+csrMatrix blockMatrix3::thirdOfTrace() const
+{
+    csrMatrix A;
+    A.rowStart = rowStart, A.column = column;
+    A.value.resize(value.size()), A.diagonal.resize(size());
+    for (size_t k = 0; k < value.size(); ++k) A.value[k] = value[k].trace() / 3;
+    for (label i = 0; i < size(); ++i) A.diagonal[i] = diagonal[i].trace() / 3;
+    return A;
+}
+
+csrMatrix blockMatrix3::expanded() const
+{
+    csrMatrix A;
+    A.rowStart.assign(1, 0);
+    A.rowStart.reserve(3 * size() + 1), A.diagonal.reserve(3 * size());
+    A.column.reserve(9 * value.size() + 6 * size()), A.value.reserve(A.column.capacity());
+    const auto add = [&](label i, int r, label j, int c, scalar v) {
+        if (i != j || r != c) A.column.push_back(3 * j + c), A.value.push_back(v);
+    };
+    for (label i = 0; i < size(); ++i)
+        for (int r = 0; r < 3; ++r)
+        {
+            for (int c = 0; c < 3; ++c) add(i, r, i, c, diagonal[i](r, c));
+            for (label k = rowStart[i]; k < rowStart[i + 1]; ++k)
+                for (int c = 0; c < 3; ++c) add(i, r, column[k], c, value[k](r, c));
+            A.diagonal.push_back(diagonal[i](r, r));
+            A.rowStart.push_back(label(A.column.size()));
+        }
+    return A;
+}
+
+}  // namespace ispf

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cellMultigrid.H"
+
+#include "blockSums.H"
+#include "coarsening.H"
+#include <algorithm>
+
+namespace ispf
+{
+
+namespace
+{
+
+// A level is kept only if it has at most this share of the rows above it
+constexpr scalar worthwhile = 0.7;
+
+ISPF_HOT scalar dotRange(const float* a, const float* b, label n)
+{
+    float s[16] = {};
+    label i = 0;
+    for (; i + 16 <= n; i += 16)
+        for (int k = 0; k < 16; ++k) s[k] += a[i + k] * b[i + k];
+    for (; i < n; ++i) s[0] += a[i] * b[i];
+    scalar sum = 0;
+    for (int k = 0; k < 16; ++k) sum += s[k];
+    return sum;
+}
+
+// y = a x + b y
+ISPF_HOT void combineRange(float a, const float* x, float b, float* y, label n)
+{
+    for (label i = 0; i < n; ++i) y[i] = a * x[i] + b * y[i];
+}
+
+template <class V>
+const float* flat(const List<V>& v, size_t i)
+{
+    return reinterpret_cast<const float*>(v.data() + i);
+}
+template <class V>
+float* flat(List<V>& v, size_t i)
+{
+    return reinterpret_cast<float*>(v.data() + i);
+}
+
+template <class V>
+constexpr label lanes = sizeof(V) / sizeof(float);
+
+template <class V>
+scalar dotRange(const List<V>& a, const List<V>& b, label i, label e)
+{
+    return dotRange(flat(a, i), flat(b, i), (e - i) * lanes<V>);
+}
+
+template <class V>
+void combine(scalar a, const List<V>& x, scalar b, List<V>& y)
+{
+    parallelFor(
+        label(y.size()),
+        [&](label i, label e) {
+            combineRange(float(a), flat(x, i), float(b), flat(y, i), (e - i) * lanes<V>);
+        },
+        levelGrain);
+}
+
+}  // namespace
+
+template <class V>
+struct cellMultigrid::workspace
+{
+    struct vectors
+    {
+        List<V> b, x, r;
+        List<V> c, v;  // K-cycle: first correction and its product
+    };
+    List<vectors> at;
+
+    workspace(const List<multigridLevel>& levels, bool kCycle) : at(levels.size())
+    {
+        for (size_t l = 0; l < levels.size(); ++l)
+        {
+            const label n = levels[l].size();
+            for (List<V>* v : {&at[l].b, &at[l].x, &at[l].r}) v->resize(n);
+            if (kCycle && l > 0) at[l].c.resize(n), at[l].v.resize(n);
+        }
+    }
+};
+
+// Dense factors of the rows that are coupled to others; the rest are diagonal
+struct cellMultigrid::coarsestSolver
+{
+    List<label> row;
+    Eigen::PartialPivLU<Eigen::MatrixXd> factors;
+
+    coarsestSolver(const multigridLevel& A, const List<label>& pinned)
+    {
+        List<label> number(A.size(), -1);
+        for (label i = 0; i < A.size(); ++i)
+            if (!A.alone(i)) number[i] = label(row.size()), row.push_back(i);
+        Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(row.size(), row.size());
+        for (size_t k = 0; k < row.size(); ++k)
+        {
+            const label i = row[k];
+            dense(k, k) += A.diagonal[i];
+            for (label e = A.rowStart[i]; e < A.rowStart[i + 1]; ++e)
+                if (number[A.column[e]] >= 0) dense(k, number[A.column[e]]) += A.value[e];
+        }
+        // A floating part is held at one row: with a compatible right-hand side this is exact
+        for (const label i : pinned)
+            if (number[i] >= 0) dense(number[i], number[i]) += A.diagonal[i];
+        if (!row.empty()) factors.compute(dense);
+    }
+
+    template <class V>
+    void solve(const multigridLevel& A, const List<V>& b, List<V>& x) const
+    {
+        smoothZero(A, b, x);
+        if (row.empty()) return;
+        Eigen::MatrixXd rhs(row.size(), lanes<V>);
+        for (size_t k = 0; k < row.size(); ++k)
+            for (int c = 0; c < lanes<V>; ++c) rhs(k, c) = flat(b, row[k])[c];
+        rhs = factors.solve(rhs);
+        for (size_t k = 0; k < row.size(); ++k)
+            for (int c = 0; c < lanes<V>; ++c) flat(x, row[k])[c] = float(rhs(k, c));
+    }
+};
+
+multigridOptions multigridOptions::fromDict(const dictionary& dict, scalar cellSize)
+{
+    multigridOptions o;
+    o.cellSize = cellSize;
+    o.cycle = dict.chooseOrDefault("cycle", {"V", "K"}, o.cycle);
+    o.omega = dict.getInRangeOrDefault("omega", 0.1, 1.9, o.omega);
+    o.coarsestSize = label(dict.getInRangeOrDefault("coarsestSize", 1, 5000, o.coarsestSize));
+    return o;
+}
+
+cellMultigrid::cellMultigrid(const csrMatrix& A, const List<vector>& x,
+                             const multigridOptions& options, const List<std::uint8_t>& group)
+    : options_(options)
+{
+    if (label(x.size()) != A.size() || (!group.empty() && label(group.size()) != A.size()))
+        throw fatalError("cellMultigrid: " + std::to_string(x.size()) + " points and " +
+                         std::to_string(group.size()) + " groups for a matrix of " +
+                         std::to_string(A.size()) + " rows");
+    if (!(options.cellSize > 0))
+        throw fatalError("cellMultigrid: the cell size (the support of the kernel) must be given");
+    buildFinest(A, x, group);
+    buildLevels();
+    buildNullSpace();
+    setRelaxation();
+    work1_ = std::make_unique<workspace<float>>(level_, options_.cycle == "K");
+}
+
+cellMultigrid::~cellMultigrid() = default;
+
+List<label> cellMultigrid::levelSizes() const
+{
+    List<label> sizes;
+    for (const multigridLevel& l : level_) sizes.push_back(l.size());
+    return sizes;
+}
+
+// The finest level borrows the pattern of A; values become float, divided by the mean diagonal so
+// that they stay far from the ends of its range
+void cellMultigrid::buildFinest(const csrMatrix& A, const List<vector>& x,
+                                const List<std::uint8_t>& group)
+{
+    const label n = A.size();
+    level_.resize(1);
+    multigridLevel& f = level_[0];
+    const scalar sum = parallelSum(n, [&](label i, label e) {
+        return Eigen::Map<const Eigen::ArrayXd>(&A.diagonal[i], e - i).abs().sum();
+    });
+    matrixScale_ = sum > 0 ? sum / n : 1;
+    f.rowStart = A.rowStart.data(), f.column = A.column.data();
+    f.value.resize(A.nEntries()), f.diagonal.resize(n), f.excess.resize(n), f.point.resize(n);
+    vector corner = vector::Zero();
+    if (n > 0) corner = x[0];
+    for (const vector& p : x) corner = corner.cwiseMin(p);
+    parallelFor(n, [&](label begin, label end) {
+        const scalar scale = 1 / matrixScale_;
+        for (label i = begin; i < end; ++i)
+        {
+            scalar rowSum = A.diagonal[i];
+            for (label k = A.rowStart[i]; k < A.rowStart[i + 1]; ++k)
+            {
+                rowSum += A.value[k];
+                f.value[k] = float(scale * A.value[k]);
+            }
+            f.diagonal[i] = float(scale * A.diagonal[i]);
+            f.excess[i] = float(scale * rowSum);
+            const vector p = x[i] - corner;
+            f.point[i] = float4{float(p[0]), float(p[1]), float(p[2]), 0};
+        }
+    });
+    f.weight = f.diagonal;
+    f.group = group.empty() ? List<std::uint8_t>(n, 0) : group;
+}
+
+void cellMultigrid::buildLevels()
+{
+    float extent = 0;
+    for (const float4& p : level_[0].point) extent = std::max({extent, p[0], p[1], p[2]});
+    float cellSize = float(options_.cellSize);
+    level_.reserve(64);
+    while (level_.back().size() > options_.coarsestSize)
+    {
+        multigridLevel& fine = level_.back();
+        cellAggregates aggregates = aggregateByCell(fine, cellSize);
+        const bool useful = aggregates.n <= worthwhile * aggregates.member.size();
+        if (useful && !aggregates.member.empty())
+            level_.push_back(coarsen(fine, aggregates, cellSize));
+        else if (cellSize > 2 * extent) break;  // nothing left to join
+        cellSize *= 2;
+    }
+}
+
+// Levels share sets of connected rows, so floating ones are found on the coarsest and handed up
+void cellMultigrid::buildNullSpace()
+{
+    const multigridLevel& last = level_.back();
+    List<label> set, pinned;
+    const rowGraph<float> graph{last.size(), last.rowStart, last.column, last.value.data()};
+    label nSets = floatingSets(graph, last.excess, last.weight, set);
+    for (label i = 0, next = 0; i < last.size(); ++i)
+        if (set[i] == next) pinned.push_back(i), ++next;
+    coarsest_ = std::make_unique<coarsestSolver>(last, pinned);
+
+    for (label l = label(level_.size()) - 2; l >= 0; --l)
+    {
+        const multigridLevel& f = level_[l];
+        List<label> fineSet(f.size(), -1);
+        for (label i = 0; i < f.size(); ++i)
+            if (f.aggregate[i] >= 0) fineSet[i] = set[f.aggregate[i]];
+            else if (isFloating(f.excess[i], f.weight[i])) fineSet[i] = nSets++;
+        set = std::move(fineSet);
+    }
+    nullSpace_ = constantNullSpace(std::move(set), nSets);
+}
+
+void cellMultigrid::setRelaxation()
+{
+    for (multigridLevel& f : level_)
+    {
+        f.relax.resize(f.size());
+        parallelFor(f.size(), [&](label begin, label end) {
+            for (label i = begin; i < end; ++i)
+                if (!f.alone(i)) f.relax[i] = float(options_.omega) / f.diagonal[i];
+                else f.relax[i] = isFloating(f.excess[i], f.weight[i]) ? 0 : 1 / f.diagonal[i];
+        });
+    }
+}
+
+// x = an approximation of A^-1 b on level l
+template <class V>
+void cellMultigrid::cycle(workspace<V>& work, label l) const
+{
+    const multigridLevel& A = level_[l];
+    auto& w = work.at[l];
+    if (l + 1 == label(level_.size())) return coarsest_->solve(A, w.b, w.x);
+    smoothZero(A, w.b, w.x);
+    residual(A, w.b, w.x, w.r);
+    restrictTo(A, w.r, work.at[l + 1].b);
+    solveCoarse(work, l + 1);
+    prolongAdd(A, work.at[l + 1].x, w.x);
+    smooth(A, w.b, w.x, w.r);
+    w.x.swap(w.r);
+}
+
+// One cycle, or in the K-cycle at most two steps of flexible conjugate gradients preconditioned by
+// it.  Y. Notay, P. S. Vassilevski, Numer. Linear Algebra Appl. 15 (2008) 473.
+template <class V>
+void cellMultigrid::solveCoarse(workspace<V>& work, label l) const
+{
+    cycle(work, l);
+    if (options_.cycle == "V" || l + 1 == label(level_.size())) return;
+    constexpr scalar goodEnough = 0.25;
+
+    const multigridLevel& A = level_[l];
+    const label n = A.size();
+    auto& w = work.at[l];
+    w.c.swap(w.x);
+    multiply(A, w.c, w.v);
+    const auto first = blockSums(n, 3, [&](label i, label e, scalar* sum) {
+        sum[0] = dotRange(w.c, w.v, i, e);
+        sum[1] = dotRange(w.c, w.b, i, e);
+        sum[2] = dotRange(w.b, w.b, i, e);
+    });
+    if (!(first[0] > 0)) return w.c.swap(w.x);
+    const scalar alpha = first[1] / first[0];
+    combine(-alpha, w.v, 1, w.b);
+    const auto rr =
+        blockSums(n, 1, [&](label i, label e, scalar* sum) { sum[0] = dotRange(w.b, w.b, i, e); });
+    if (rr[0] <= goodEnough * goodEnough * first[2]) return combine(alpha, w.c, 0, w.x);
+
+    cycle(work, l);
+    multiply(A, w.x, w.r);
+    const auto second = blockSums(n, 3, [&](label i, label e, scalar* sum) {
+        sum[0] = dotRange(w.x, w.v, i, e);
+        sum[1] = dotRange(w.x, w.r, i, e);
+        sum[2] = dotRange(w.x, w.b, i, e);
+    });
+    const scalar rho = second[1] - second[0] * second[0] / first[0];
+    if (!(rho > 0)) return combine(alpha, w.c, 0, w.x);
+    combine(alpha - second[0] * second[2] / (first[0] * rho), w.c, second[2] / rho, w.x);
+}
+
+void cellMultigrid::apply(const List<scalar>& r, List<scalar>& z) const
+{
+    const label n = level_[0].size();
+    List<scalar> projected;
+    if (!nullSpace_.empty()) projected = r, nullSpace_.project(projected);
+    const List<scalar>& right = nullSpace_.empty() ? r : projected;
+    const scalar rms = norm(right) / std::sqrt(scalar(std::max(n, 1)));
+    if (rms == 0) return z.assign(n, 0);
+
+    auto& finest = work1_->at[0];
+    parallelFor(n, [&](label i, label e) {
+        for (; i < e; ++i) finest.b[i] = float(right[i] / rms);
+    });
+    cycle(*work1_, 0);
+    parallelFor(n, [&](label i, label e) {
+        for (; i < e; ++i) z[i] = finest.x[i] * (rms / matrixScale_);
+    });
+    nullSpace_.project(z);
+}
+
+void cellMultigrid::applyBlock3(const List<vec4>& r, List<vec4>& z) const
+{
+    if (!work3_) work3_ = std::make_unique<workspace<float4>>(level_, options_.cycle == "K");
+    const label n = level_[0].size();
+    const scalar squares = parallelSum(n, [&](label i, label e) {
+        simd4 sum = {};
+        for (; i < e; ++i) sum += r[i].s * r[i].s;
+        return sum[0] + sum[1] + sum[2];
+    });
+    const scalar rms = std::sqrt(squares / std::max(n, 1));
+    if (rms == 0) return z.assign(n, vec4{});
+
+    auto& finest = work3_->at[0];
+    parallelFor(n, [&](label i, label e) {
+        for (; i < e; ++i)
+        {
+            const simd4 v = r[i].s / rms;
+            finest.b[i] = float4{float(v[0]), float(v[1]), float(v[2]), 0};
+        }
+    });
+    cycle(*work3_, 0);
+    parallelFor(n, [&](label i, label e) {
+        const scalar back = rms / matrixScale_;
+        for (; i < e; ++i)
+        {
+            const float4 v = finest.x[i];
+            z[i].s = simd4{v[0] * back, v[1] * back, v[2] * back, 0};
+        }
+    });
+}
+
+}  // namespace ispf
