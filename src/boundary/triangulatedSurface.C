@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "patchSurface.H"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+namespace ispf
+{
+
+namespace
+{
+
+// The surface with its images beyond symmetry planes and cyclic pairs, joined along their edges
+triSurface continued(triSurface s, const imageGroup& group, scalar reach)
+{
+    const triSurface own = s;
+    for (const structureImage& map : group.maps())
+    {
+        const bool reflects = map.R.determinant() < 0;
+        for (label t = 0; t < own.size(); ++t)
+        {
+            vector c[3];
+            for (int k = 0; k < 3; ++k) c[k] = map(own.corner(t, k));
+            const scalar nearest = std::min({group.beyond(c[0]), group.beyond(c[1]),
+                                             group.beyond(c[2])});
+            if (nearest > 2 * reach) continue;
+            if (reflects) std::swap(c[1], c[2]);
+            s.add(c[0], c[1], c[2], own.patch[t]);
+        }
+    }
+    s.weld(1e-4 * reach);
+    return s;
+}
+
+// A coarse raster around the surface: most particles are far from it, and one look tells
+struct raster
+{
+    vector low;
+    scalar cell = 1;
+    int n[3] = {0, 0, 0};
+    List<char> near;
+
+    void build(const surfaceSearch& search, scalar reach)
+    {
+        boundBox box = search.surface().bounds();
+        const vector extent = box.max - box.min + vector::Constant(2 * reach);
+        const scalar volume = extent.prod();
+        cell = std::max(0.5 * reach, std::cbrt(volume / 2e6));
+        low = box.min - vector::Constant(reach);
+        for (int d = 0; d < 3; ++d) n[d] = int(extent[d] / cell) + 1;
+        near.resize(size_t(n[0]) * n[1] * n[2]);
+        const scalar radius = reach + std::sqrt(0.75) * cell;
+        parallelFor(
+            n[2],
+            [&](label begin, label end)
+            {
+                for (label z = begin; z < end; ++z)
+                    for (int y = 0; y < n[1]; ++y)
+                        for (int x = 0; x < n[0]; ++x)
+                            near[(size_t(z) * n[1] + y) * n[0] + x] = search.within(
+                                low + cell * vector(x + 0.5, y + 0.5, z + 0.5), radius);
+            },
+            1);
+    }
+
+    bool far(const vector& x) const
+    {
+        size_t index = 0;
+        for (int d = 2; d >= 0; --d)
+        {
+            const scalar q = (x[d] - low[d]) / cell;
+            if (!(q >= 0 && q < n[d])) return true;
+            index = index * n[d] + size_t(q);
+        }
+        return !near[index];
+    }
+};
+
+// Which edges (bits 0 to 2, from corner k to k + 1) and corners (bits 3 to 5) of a triangle lie on
+// the surface's rim
+List<std::uint8_t> rimBits(const triSurface& s)
+{
+    std::set<std::pair<label, label>> half;
+    for (const auto& t : s.triangles)
+        for (int k = 0; k < 3; ++k) half.insert({t[k], t[(k + 1) % 3]});
+    List<char> node(s.nodes.size(), 0);
+    List<std::uint8_t> bits(s.size(), 0);
+    for (label t = 0; t < s.size(); ++t)
+        for (int k = 0; k < 3; ++k)
+        {
+            const label a = s.triangles[t][k], b = s.triangles[t][(k + 1) % 3];
+            if (half.count({b, a})) continue;
+            bits[t] |= std::uint8_t(1 << k), node[a] = node[b] = 1;
+        }
+    for (label t = 0; t < s.size(); ++t)
+        for (int k = 0; k < 3; ++k)
+            if (node[s.triangles[t][k]]) bits[t] |= std::uint8_t(8 << k);
+    return bits;
+}
+
+scalar distanceToEdge(const vector& p, const vector& a, const vector& b)
+{
+    const vector e = b - a;
+    const scalar s = std::clamp((p - a).dot(e) / std::max(e.squaredNorm(), 1e-300), 0.0, 1.0);
+    return (p - a - s * e).norm();
+}
+
+class triangulatedSurface : public patchSurface
+{
+public:
+    triangulatedSurface(triSurface surface, const imageGroup& group, scalar reach) : reach_(reach)
+    {
+        area_.assign(surface.patchNames.size(), vector::Zero());
+        for (label t = 0; t < surface.size(); ++t) area_[surface.patch[t]] += surface.areaVector(t);
+        search_ = surfaceSearch(continued(std::move(surface), group, reach));
+        rim_ = rimBits(search_.surface());
+        raster_.build(search_, reach);
+    }
+
+    surfaceFoot find(const vector& x) const override
+    {
+        surfaceFoot f;
+        if (raster_.far(x)) return f;
+        const surfacePoint p = search_.nearest(x, reach_);
+        if (!p.found) return f;
+        f.found = true, f.patch = search_.patch(p), f.foot = p.point, f.normal = p.normal;
+        if (onRim(p))
+        {
+            f.depth = (x - p.point).dot(p.normal);
+            f.foot = x - f.depth * p.normal;
+            f.aside = (f.foot - p.point).norm();
+            return f;
+        }
+        f.depth = p.signedDistance(x);
+        if (p.distance > 1e-6 * reach_) f.normal = (x - p.point) / f.depth;
+        return f;
+    }
+
+    bool crosses(const vector& a, const vector& b) const override { return search_.crosses(a, b); }
+
+    surfaceFoot firstCrossing(const vector& a, const vector& b) const override
+    {
+        surfaceFoot f;
+        const surfaceHit hit = search_.firstHit(a, b);
+        if (!hit.found) return f;
+        f.found = true, f.foot = hit.point, f.patch = search_.surface().patch[hit.triangle];
+        f.normal = search_.surface().normal(hit.triangle);
+        return f;
+    }
+
+    vector areaVector(label patch) const override { return area_[patch]; }
+    bool surelyFar(const vector& x) const override { return raster_.far(x); }
+
+private:
+    bool onRim(const surfacePoint& p) const
+    {
+        const std::uint8_t bits = rim_[p.triangle];
+        if (bits == 0 || p.feature == surfaceFeature::facet) return false;
+        const triSurface& s = search_.surface();
+        const scalar tiny = 1e-9 * reach_;
+        for (int k = 0; k < 3; ++k)
+        {
+            const vector &a = s.corner(p.triangle, k), &b = s.corner(p.triangle, (k + 1) % 3);
+            if (bits >> k & 1 && distanceToEdge(p.point, a, b) < tiny) return true;
+            if (bits >> (3 + k) & 1 && (p.point - a).norm() < tiny) return true;
+        }
+        return false;
+    }
+
+    scalar reach_;
+    surfaceSearch search_;
+    raster raster_;
+    List<std::uint8_t> rim_;
+    List<vector> area_;
+};
+
+}  // namespace
+
+std::unique_ptr<patchSurface> patchSurface::triangles(triSurface surface, const imageGroup& group,
+                                                      scalar reach)
+{
+    return std::make_unique<triangulatedSurface>(std::move(surface), group, reach);
+}
+
+triSurface readPatch(const word& caseFolder, const word& patch, const dictionary& dict)
+{
+    const word path = caseFolder + "/constant/triSurface/" + patch + ".stl";
+    if (!std::filesystem::exists(path))
+        throw fatalError("Patch " + patch + " needs its surface " + path +
+                             ". Write it with generateParticles, or describe the patch by "
+                             "'surface plane; point ...; normal ...;'",
+                         dict.where("type"));
+    triSurface s = readSTL(path);
+    if (s.empty()) throw fatalError("The surface " + path + " has no triangles");
+    s.patchNames = {patch};
+    std::fill(s.patch.begin(), s.patch.end(), 0);
+    return s;
+}
+
+}  // namespace ispf
