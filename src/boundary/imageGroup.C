@@ -12,7 +12,10 @@ namespace ispf
 namespace
 {
 
-structureImage identity() { return {tensor::Identity(), vector::Zero()}; }
+structureImage identity()
+{
+    return {tensor::Identity(), vector::Zero()};
+}
 
 structureImage after(const structureImage& second, const structureImage& first)
 {
@@ -59,6 +62,14 @@ void imageGroup::addCyclic(const word& patch, const vector& point, const vector&
     sides_.push_back({patch, point + separation, n, up, down, true});
 }
 
+List<std::pair<vector, vector>> imageGroup::symmetryPlanes() const
+{
+    List<std::pair<vector, vector>> planes;
+    for (const side& s : sides_)
+        if (!s.cyclic) planes.push_back({s.point, s.normal});
+    return planes;
+}
+
 scalar imageGroup::beyond(const vector& x) const
 {
     scalar most = -std::numeric_limits<scalar>::infinity();
@@ -86,8 +97,8 @@ void imageGroup::checkAngles() const
             const scalar parts = parallel ? 0 : M_PI / angle;
             const bool orthogonal = std::abs(angle - 0.5 * M_PI) < 1e-6;
             const bool fits = a.cyclic || b.cyclic ? orthogonal
-                              : parallel ? angle < 1e-6
-                                         : std::abs(parts - std::round(parts)) < 1e-6;
+                              : parallel           ? angle < 1e-6
+                                                   : std::abs(parts - std::round(parts)) < 1e-6;
             if (fits) continue;
             throw fatalError(
                 "Patches " + a.patch + " and " + b.patch + " meet at " + str(angle * 180 / M_PI) +
@@ -146,9 +157,12 @@ void imageGroup::grow(const boundBox& region)
             if (contains(all, next, length) || !comesNear(next, region)) continue;
             all.push_back(next);
             if (all.size() > 1000)
-                throw fatalError("More than 1000 images of the particles lie within the kernel "
-                                 "support " + str(support_) + " m: the region between the "
-                                 "symmetry planes and cyclic pairs is too thin. Widen it");
+                throw fatalError(
+                    "More than 1000 images of the particles lie within the kernel "
+                    "support " +
+                    str(support_) +
+                    " m: the region between the "
+                    "symmetry planes and cyclic pairs is too thin. Widen it");
         }
     for (size_t k = 0; k < all.size(); ++k)  // links expect every map's inverse in the list
     {
@@ -162,8 +176,7 @@ void imageGroup::grow(const boundBox& region)
 void imageGroup::setFactor()
 {
     List<structureImage> turns = {identity()};
-    const auto alone = [&](const side& a)
-    {
+    const auto alone = [&](const side& a) {
         for (const side& b : sides_)
             if (&a != &b && a.normal.dot(b.normal) < -1 + 1e-9) return false;
         return !a.cyclic;
@@ -197,7 +210,10 @@ Eigen::Matrix4d turn(const tensor& R)
     return M;
 }
 
-vec4 turned(const tensor& R, const vec4& b) { return vec4::from(R * b.xyz(), b[3]); }
+vec4 turned(const tensor& R, const vec4& b)
+{
+    return vec4::from(R * b.xyz(), b[3]);
+}
 
 // Images of one map: of owned particles, of mirror images (their rules are multiplied), of rigid
 // particles

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 
 namespace ispf
@@ -23,8 +24,8 @@ triSurface continued(triSurface s, const imageGroup& group, scalar reach)
         {
             vector c[3];
             for (int k = 0; k < 3; ++k) c[k] = map(own.corner(t, k));
-            const scalar nearest = std::min({group.beyond(c[0]), group.beyond(c[1]),
-                                             group.beyond(c[2])});
+            const scalar nearest =
+                std::min({group.beyond(c[0]), group.beyond(c[1]), group.beyond(c[2])});
             if (nearest > 2 * reach) continue;
             if (reflects) std::swap(c[1], c[2]);
             s.add(c[0], c[1], c[2], own.patch[t]);
@@ -54,8 +55,7 @@ struct raster
         const scalar radius = reach + std::sqrt(0.75) * cell;
         parallelFor(
             n[2],
-            [&](label begin, label end)
-            {
+            [&](label begin, label end) {
                 for (label z = begin; z < end; ++z)
                     for (int y = 0; y < n[1]; ++y)
                         for (int x = 0; x < n[0]; ++x)
@@ -100,6 +100,30 @@ List<std::uint8_t> rimBits(const triSurface& s)
     return bits;
 }
 
+// Half the sum over edges of length times angle, over the area (Steiner's formula)
+scalar meanGrowth(const triSurface& s)
+{
+    std::map<std::pair<label, label>, label> right;
+    scalar sum = 0, area = 0;
+    for (label t = 0; t < s.size(); ++t)
+        for (int k = 0; k < 3; ++k) right[{s.triangles[t][(k + 1) % 3], s.triangles[t][k]}] = t;
+    for (label t = 0; t < s.size(); ++t)
+    {
+        const vector n = s.normal(t);
+        area += s.areaVector(t).norm();
+        for (int k = 0; k < 3; ++k)
+        {
+            const auto other = right.find({s.triangles[t][k], s.triangles[t][(k + 1) % 3]});
+            if (other == right.end()) continue;
+            const vector edge = s.corner(t, (k + 1) % 3) - s.corner(t, k);
+            const vector across = n.cross(s.normal(other->second));
+            sum +=
+                0.5 * edge.norm() * std::asin(std::clamp(across.dot(edge.normalized()), -1., 1.));
+        }
+    }
+    return area > 0 ? 0.5 * sum / area : 0;
+}
+
 scalar distanceToEdge(const vector& p, const vector& a, const vector& b)
 {
     const vector e = b - a;
@@ -114,6 +138,8 @@ public:
     {
         area_.assign(surface.patchNames.size(), vector::Zero());
         for (label t = 0; t < surface.size(); ++t) area_[surface.patch[t]] += surface.areaVector(t);
+        surface.weld(1e-4 * reach);
+        growth_ = meanGrowth(surface);
         search_ = surfaceSearch(continued(std::move(surface), group, reach));
         rim_ = rimBits(search_.surface());
         raster_.build(search_, reach);
@@ -151,6 +177,7 @@ public:
     }
 
     vector areaVector(label patch) const override { return area_[patch]; }
+    scalar curvature() const override { return growth_; }
     bool surelyFar(const vector& x) const override { return raster_.far(x); }
 
 private:
@@ -169,7 +196,7 @@ private:
         return false;
     }
 
-    scalar reach_;
+    scalar reach_, growth_ = 0;
     surfaceSearch search_;
     raster raster_;
     List<std::uint8_t> rim_;

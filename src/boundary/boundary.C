@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "boundary.H"
+#include "openFace.H"
+#include "siteFile.H"
+#include "wallGuard.H"
+
+#include <algorithm>
+
+namespace ispf
+{
+
+struct boundary::content
+{
+    imageGroup group;
+    wallSet walls;
+    wallGuard guard;
+    List<openFace> openFaces;
+    List<label> openIndex;  // of an open face in the balance
+    List<patchBalance> balance;
+
+    void addPatch(const word& name, const dictionary& dict, const word& caseFolder);
+    void addOpenFaces(const word& caseFolder, const dictionary& patches,
+                      const particleCloud& cloud);
+    label putBack(particleCloud& cloud) const;
+};
+
+namespace
+{
+
+vector nonZero(const dictionary& dict, const word& key)
+{
+    const vector v = dict.get<vector>(key);
+    if (v.norm() == 0) dict.fail(key, key + " must not be zero");
+    return v;
+}
+
+}  // namespace
+
+void boundary::content::addPatch(const word& name, const dictionary& dict, const word& caseFolder)
+{
+    const word type = dict.choose("type", {"wall", "symmetryPlane", "cyclic", "open"});
+    const label index = label(balance.size());
+    balance.push_back({name});
+    if (type == "symmetryPlane")
+        group.addSymmetryPlane(name, dict.get<vector>("point"), nonZero(dict, "normal"));
+    else if (type == "cyclic")
+        group.addCyclic(name, dict.get<vector>("point"), nonZero(dict, "separation"));
+    else if (type == "open") openIndex.push_back(index);
+    else
+    {
+        wall w = wall::New(name, dict, caseFolder);
+        w.index = index;
+        walls.add(std::move(w));
+    }
+}
+
+void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& patches,
+                                     const particleCloud& cloud)
+{
+    if (openIndex.empty()) return;
+    const siteFile sites(caseFolder + "/constant/openSites.hdf");
+    const auto allowed = [&](const vector& x) {
+        return group.beyond(x) < -0.35 * cloud.dx && walls.clear(x, 0.35 * cloud.dx);
+    };
+    for (const label index : openIndex)
+    {
+        const word& name = balance[index].name;
+        const dictionary& dict = patches.subDict(name);
+        openFaces.emplace_back(name, dict, caseFolder, group, cloud);
+        openFaces.back().setSites(sites.positions(name, dict.where("type")), cloud, allowed);
+    }
+}
+
+boundary::boundary(const word& caseFolder, const dictionary& patches, const particleCloud& cloud,
+                   scalar support)
+    : content_(std::make_unique<content>())
+{
+    content& c = *content_;
+    for (const word& name : patches.dictKeys()) c.addPatch(name, patches.subDict(name), caseFolder);
+    c.group.close(cloud, support);
+    c.walls.read(caseFolder, patches, c.group, cloud, support);
+    c.walls.setStep(0, 1);
+    c.addOpenFaces(caseFolder, patches, cloud);
+}
+
+boundary::~boundary() = default;
+
+void boundary::setStep(scalar t0, scalar t1)
+{
+    content_->walls.setStep(t0, t1);
+    for (openFace& face : content_->openFaces) face.setTime(t1);
+}
+
+void boundary::setFlags(particleCloud& cloud) const
+{
+    std::fill(cloud.pFixed.begin(), cloud.pFixed.end(), 0);
+    for (const openFace& face : content_->openFaces) face.setFlags(cloud);
+}
+
+void boundary::updateGhosts(particleCloud& cloud) const
+{
+    cloud.clearGhosts();
+    content_->walls.addRigid(cloud);
+    content_->group.addImages(cloud);
+}
+
+neighbourList::visibility boundary::visible(const particleCloud&) const
+{
+    return nullptr;
+}
+
+// Fluid that stepped over a symmetry plane is reflected, over a cyclic side carried to the other
+label boundary::content::putBack(particleCloud& cloud) const
+{
+    label n = 0;
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+    {
+        vector x = cloud.x[i].xyz(), u = cloud.Up[i].xyz();
+        const structureImage* back = group.wayBack(x);
+        if (!back) continue;
+        for (int k = 0; back && k < 8; ++k)
+            x = (*back)(x), u = back->R * u, back = group.wayBack(x);
+        cloud.x[i].setXyz(x), cloud.Up[i].setXyz(u), ++n;
+    }
+    return n;
+}
+
+label boundary::exchange(particleCloud& cloud, scalar t1)
+{
+    content& c = *content_;
+    cloud.clearGhosts();
+    const List<scalar> swept = c.walls.moveTo(t1);
+    label pushed = 0;
+    if (!c.walls.empty())
+    {
+        const List<label> perWall = c.guard.apply(cloud, c.walls);
+        for (const wall& w : c.walls.walls())
+        {
+            const size_t k = size_t(&w - c.walls.walls().data());
+            c.balance[w.index].swept += swept[k], c.balance[w.index].pushed += perWall[k];
+            pushed += perWall[k];
+        }
+    }
+    c.putBack(cloud);
+    for (size_t k = 0; k < c.openFaces.size(); ++k)
+    {
+        patchBalance& b = c.balance[c.openIndex[k]];
+        c.openFaces[k].setTime(t1);
+        b.deleted += c.openFaces[k].removeBeyond(cloud);
+        b.created += c.openFaces[k].fill(cloud);
+    }
+    if (!c.walls.empty()) c.guard.remember(cloud, c.walls);
+    return pushed;
+}
+
+List<structureImage> boundary::images() const
+{
+    return content_->group.maps();
+}
+
+List<std::pair<vector, vector>> boundary::symmetryPlanes() const
+{
+    return content_->group.symmetryPlanes();
+}
+
+scalar boundary::symmetryFactor() const
+{
+    return content_->group.symmetryFactor();
+}
+
+scalar boundary::maxWallSpeed() const
+{
+    return content_->walls.maxSpeed();
+}
+
+bool boundary::fixesPressure() const
+{
+    return !content_->openFaces.empty();
+}
+
+bool boundary::nearOpen(const vector& x) const
+{
+    for (const openFace& face : content_->openFaces)
+        if (face.near(x)) return true;
+    return false;
+}
+
+const List<patchBalance>& boundary::balance() const
+{
+    return content_->balance;
+}
+
+void boundary::restoreBalance(const List<patchBalance>& balance)
+{
+    content_->balance = balance;
+}
+
+}  // namespace ispf

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "siteFile.H"
+
+#include <filesystem>
+#include <sstream>
+
+namespace ispf
+{
+
+siteFile::siteFile(const word& path) : path_(path)
+{
+    if (!std::filesystem::exists(path))
+        throw fatalError("Cannot find " + path +
+                         ", which the patches of constant/boundary need. "
+                         "generateParticles writes it");
+    const particleTable table = readParticles(path);
+    const auto attribute = table.attributes.find("patches");
+    const auto column = table.integers.find("patch");
+    if (attribute == table.attributes.end() || column == table.integers.end())
+        throw fatalError(path +
+                         " needs the integer field 'patch' and the attribute 'patches' with "
+                         "the names. Write it anew with generateParticles");
+    std::istringstream in(attribute->second);
+    List<word> names;
+    for (word name; in >> name;) names.push_back(name);
+    for (const word& name : names) points_[name];
+    for (size_t k = 0; k < table.size(); ++k)
+    {
+        const globalId patch = column->second[k];
+        if (patch < 0 || patch >= globalId(names.size()))
+            throw fatalError(path + ": point " + std::to_string(k) + " has patch " +
+                             std::to_string(patch) + ", but the attribute 'patches' lists " +
+                             std::to_string(names.size()) + " names");
+        points_[names[size_t(patch)]].push_back(table.x[k]);
+    }
+}
+
+List<vector> siteFile::positions(const word& patch, const fileLocation& where) const
+{
+    const auto found = points_.find(patch);
+    if (found != points_.end() && !found->second.empty()) return found->second;
+    List<word> names;
+    for (const auto& [name, points] : points_)
+        if (!points.empty()) names.push_back(name);
+    throw fatalError("Patch " + patch + " has no point in " + path_ + ". " +
+                         validWords("patch", names) +
+                         ". Name it alike in constant/boundary and for generateParticles",
+                     where);
+}
+
+}  // namespace ispf

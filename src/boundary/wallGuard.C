@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wallGuard.H"
+
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+const word seenField = "xGuarded";
+
+constexpr scalar gap = 0.15;      // [dx] kept from every surface
+constexpr scalar longStep = 0.1;  // [dx] only a longer one can get through a wall unseen
+constexpr int passes = 4;         // a push off one wall may lead into another, at an edge
+
+// One particle against one surface, in the surface's frame
+struct pusher
+{
+    const patchSurface& surface;
+    scalar dx;
+
+    // Where it must not be: on the way from `seen`, or too near.  Returns the patch, -1 if all is
+    // well
+    label push(vector& x, const vector& seen, bool inStrip) const
+    {
+        if ((x - seen).norm() > longStep * dx && surface.crosses(seen, x))
+        {
+            const surfaceFoot f = surface.firstCrossing(seen, x);
+            if (f.found && (seen - f.foot).dot(f.normal) < 0)
+            {
+                x = f.foot - gap * dx * f.normal;
+                return f.patch;
+            }
+        }
+        if (surface.surelyFar(x)) return -1;
+        const surfaceFoot f = surface.find(x);
+        // beside its rim a wall is continued for the strip of an open face only
+        if (!f.found || (f.aside > 0 && !inStrip) || f.depth <= -(gap - 1e-9) * dx) return -1;
+        x -= (f.depth + gap * dx) * f.normal;
+        return f.patch;
+    }
+};
+
+}  // namespace
+
+List<label> wallGuard::apply(particleCloud& cloud, const wallSet& walls) const
+{
+    const label first = cloud.nSolid(), n = cloud.n() - first;
+    const auto field = cloud.vectors.find(seenField);
+    const bool hasSeen = field != cloud.vectors.end() && !seenOffsets_.empty();
+    List<label> hit(n, -1);  // the wall that pushed particle i first
+    parallelFor(n, [&](label begin, label end) {
+        for (label k = begin; k < end; ++k)
+        {
+            const label i = first + k;
+            vector x = cloud.x[i].xyz();
+            const vector seen = hasSeen ? field->second[i].xyz() : x;
+            bool again = true;
+            for (int pass = 0; pass < passes && again; ++pass)
+            {
+                again = false;
+                for (size_t b = 0; b < walls.bodies().size(); ++b)
+                {
+                    const wallSet::body& body = walls.bodies()[b];
+                    const vector offset = walls.offset(body);
+                    vector y = x - offset;
+                    const vector before = hasSeen && pass == 0 ? vector(seen - seenOffsets_[b]) : y;
+                    const label patch =
+                        pusher{*body.surface, cloud.dx}.push(y, before, cloud.pFixed[i]);
+                    if (patch < 0) continue;
+                    x = y + offset, again = true;
+                    if (hit[k] < 0) hit[k] = body.walls[patch];
+                }
+            }
+            if (hit[k] >= 0) cloud.x[i].setXyz(x);
+        }
+    });
+    List<label> pushed(walls.walls().size(), 0);
+    for (const label w : hit)
+        if (w >= 0) ++pushed[w];
+    return pushed;
+}
+
+void wallGuard::remember(particleCloud& cloud, const wallSet& walls)
+{
+    List<vec4>& seen = cloud.vectors[seenField];
+    seen.assign(cloud.x.begin(), cloud.x.begin() + cloud.n());
+    seenOffsets_.clear();
+    for (const wallSet::body& b : walls.bodies()) seenOffsets_.push_back(walls.offset(b));
+}
+
+}  // namespace ispf

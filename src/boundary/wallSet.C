@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wallSet.H"
+#include "siteFile.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ispf
+{
+
+void wallSet::read(const word& caseFolder, const dictionary& patches, const imageGroup& group,
+                   const particleCloud& cloud, scalar support)
+{
+    support_ = support;
+    if (empty()) return;
+    makeBodies(caseFolder, patches, group, support + cloud.dx);
+    readRigid(caseFolder, patches);
+}
+
+void wallSet::makeBodies(const word& caseFolder, const dictionary& patches, const imageGroup& group,
+                         scalar reach)
+{
+    triSurface still;
+    List<label> stillWalls;
+    for (label w = 0; w < label(walls_.size()); ++w)
+    {
+        const wall& own = walls_[w];
+        if (own.plane)
+        {
+            bodies_.push_back({patchSurface::plane(own.point, own.normal, reach), {w}});
+            continue;
+        }
+        triSurface surface = readPatch(caseFolder, own.name, patches.subDict(own.name));
+        if (own.motion.moves())
+            bodies_.push_back({patchSurface::triangles(std::move(surface), group, reach), {w}});
+        else still.append(surface), stillWalls.push_back(w);
+    }
+    if (!stillWalls.empty())
+        bodies_.push_back({patchSurface::triangles(std::move(still), group, reach), stillWalls});
+}
+
+void wallSet::readRigid(const word& caseFolder, const dictionary& patches)
+{
+    const auto wanted = [](const wall& w) {
+        return w.representation == wallRepresentation::particles && !w.plane;
+    };
+    if (std::none_of(walls_.begin(), walls_.end(), wanted)) return;
+    const siteFile file(caseFolder + "/constant/wallParticles.hdf");
+    for (wall& w : walls_)
+        if (wanted(w)) w.rigid = file.positions(w.name, patches.subDict(w.name).where("type"));
+}
+
+void wallSet::setStep(scalar t0, scalar t1)
+{
+    for (wall& w : walls_) w.setStep(t0, t1);
+}
+
+List<scalar> wallSet::moveTo(scalar t)
+{
+    List<scalar> swept(walls_.size(), 0);
+    List<vector> from;
+    for (wall& w : walls_) from.push_back(w.offset), w.moveTo(t);
+    for (const body& b : bodies_)
+        for (size_t k = 0; k < b.walls.size(); ++k)
+        {
+            const label w = b.walls[k];
+            swept[w] = -(walls_[w].offset - from[w]).dot(b.surface->areaVector(label(k)));
+        }
+    return swept;
+}
+
+scalar wallSet::maxSpeed() const
+{
+    scalar most = 0;
+    for (const wall& w : walls_) most = std::max(most, w.velocity.norm());
+    return most;
+}
+
+bool wallSet::clear(const vector& x, scalar distance) const
+{
+    for (const body& b : bodies_)
+    {
+        const surfaceFoot f = b.surface->find(x - offset(b));
+        if (f.found && f.depth > -distance) return false;
+    }
+    return true;
+}
+
+namespace
+{
+
+// Search cells within one cell of an owned particle
+class occupancy
+{
+public:
+    occupancy(const particleCloud& cloud, scalar cell) : cell_(cell)
+    {
+        low_ = cloud.x[0].xyz();
+        vector high = low_;
+        for (label i = 0; i < cloud.n(); ++i)
+            low_ = low_.cwiseMin(cloud.x[i].xyz()), high = high.cwiseMax(cloud.x[i].xyz());
+        low_.array() -= cell;
+        for (int d = 0; d < 3; ++d) n_[d] = std::int64_t((high[d] - low_[d]) / cell) + 2;
+        near_.assign(size_t(n_[0] * n_[1] * n_[2]), 0);
+        for (label i = 0; i < cloud.n(); ++i) near_[size_t(index(cloud.x[i].xyz()))] = 1;
+        spread(1), spread(n_[0]), spread(n_[0] * n_[1]);
+    }
+
+    bool near(const vector& x) const
+    {
+        for (int d = 0; d < 3; ++d)
+            if (!(x[d] >= low_[d] && x[d] < low_[d] + scalar(n_[d]) * cell_)) return false;
+        return near_[size_t(index(x))];
+    }
+
+private:
+    std::int64_t index(const vector& x) const
+    {
+        const auto c = [&](int d) { return std::int64_t((x[d] - low_[d]) / cell_); };
+        return (c(2) * n_[1] + c(1)) * n_[0] + c(0);
+    }
+    void spread(std::int64_t stride)  // the outermost cells are empty: no wrap-around
+    {
+        const List<char> old = near_;
+        for (size_t k = size_t(stride); k + size_t(stride) < old.size(); ++k)
+            near_[k] = old[k] | old[k - size_t(stride)] | old[k + size_t(stride)];
+    }
+
+    scalar cell_;
+    vector low_;
+    std::int64_t n_[3];
+    List<char> near_;
+};
+
+}  // namespace
+
+void wallSet::addRigid(particleCloud& cloud) const
+{
+    if (empty() || cloud.n() == 0) return;
+    const occupancy cells(cloud, support_);
+    for (const wall& w : walls_)
+        for (const vector& x : w.rigid)
+            if (cells.near(x + w.offset)) cloud.addRigid(x + w.offset, w.velocity);
+}
+
+}  // namespace ispf
