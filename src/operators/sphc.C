@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sphc.H"
+#include "pairSums.H"
+
+namespace ispf
+{
+
+namespace
+{
+
+constexpr simd4 rigidWeight = {2, 2, 2, 0};
+constexpr scalar singular = 0.02;  // determinant of a correction moment
+
+// Neighbours of other phases
+ISPF_INLINE void addOthers(pairSums& sums, const stencil& s, const vec4* phi, label i)
+{
+    for (std::int64_t k = s.list.mid[i]; k < s.list.start[i + 1]; ++k)
+    {
+        const label j = s.list.index[k];
+        const simd4 g = s.list.F[k] * (s.cloud.x[i].s - s.cloud.x[j].s);
+        simd4 e = phi[j].s - phi[i].s;
+        if (s.cloud.phase[j] == phaseType::rigid) e *= rigidWeight;
+        sums.gx += e * g[0], sums.gy += e * g[1], sums.gz += e * g[2];
+        sums.lap += s.list.F[k] * e;
+    }
+}
+
+ISPF_INLINE pairSums rowSums(const stencil& s, const vec4* phi, label i, pairFilter filter)
+{
+    pairSums sums;
+    sums.add(s.list, s.cloud.x.data(), phi, i, s.list.start[i], s.list.mid[i]);
+    if (filter == pairFilter::all) addOthers(sums, s, phi, i);
+    return sums;
+}
+
+ISPF_HOT void divRange(const stencil& s, const vec4* phi, const tensor* B, pairFilter filter,
+                       label begin, label end, scalar* result)
+{
+    const tensor one = tensor::Identity();
+    for (label i = begin; i < end; ++i)
+        result[i] = rowSums(s, phi, i, filter).divergence(B ? B[i] : one);
+}
+
+ISPF_HOT void laplacianRange(const stencil& s, const vec4* phi, pairFilter filter, label begin,
+                             label end, vec4* result)
+{
+    for (label i = begin; i < end; ++i) result[i].s = -2 * rowSums(s, phi, i, filter).lap;
+}
+
+struct others
+{
+    bool rigid = false, deforming = false;
+};
+
+others otherPhases(const stencil& s, label i)
+{
+    others o;
+    for (std::int64_t k = s.list.mid[i]; k < s.list.start[i + 1]; ++k)
+        (s.cloud.phase[s.list.index[k]] == phaseType::rigid ? o.rigid : o.deforming) = true;
+    return o;
+}
+
+// Correction from the neighbours that carry a pressure.  Only a row that sees solids and walls at
+// once has it neither in B.all nor in B.same.
+tensor pressureCorrection(const stencil& s, label i)
+{
+    const others o = otherPhases(s, i);
+    if (!o.rigid) return s.B.all[i];
+    if (!o.deforming) return s.B.same[i];
+    tensor m = vector(0, 0, s.cloud.nDims == 2 ? 1 : 0).asDiagonal();
+    for (std::int64_t k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
+    {
+        const label j = s.list.index[k];
+        if (s.cloud.phase[j] == phaseType::rigid) continue;
+        const vector d = s.cloud.x[i].xyz() - s.cloud.x[j].xyz();
+        m -= s.list.F[k] * d * d.transpose();
+    }
+    return m.determinant() > singular ? tensor(m.inverse()) : s.B.same[i];
+}
+
+// sum g_ij over all neighbours
+vector surfaceVector(const stencil& s, label i, pairFilter filter)
+{
+    const std::int64_t end = filter == pairFilter::all ? s.list.start[i + 1] : s.list.mid[i];
+    simd4 sum = {};
+    for (std::int64_t k = s.list.start[i]; k < end; ++k)
+        sum += s.list.F[k] * (s.cloud.x[i].s - s.cloud.x[s.list.index[k]].s);
+    return {sum[0], sum[1], sum[2]};
+}
+
+ISPF_HOT void gradRange(const stencil& s, const vec4* phi, pairFilter filter, label begin,
+                        label end, vec4* result)
+{
+    for (label i = begin; i < end; ++i)
+        result[i] = vec4::from(rowSums(s, phi, i, filter).gradient(3));
+}
+
+void correct(const stencil& s, pairFilter filter, label begin, label end, vec4* grad)
+{
+    for (label i = begin; i < end; ++i)
+        grad[i].setXyz((filter == pairFilter::all ? pressureCorrection(s, i) : s.B.same[i]) *
+                       grad[i].xyz());
+}
+
+void symmetrise(const stencil& s, const vec4* phi, pairFilter filter, label begin, label end,
+                vec4* grad)
+{
+    for (label i = begin; i < end; ++i)
+        grad[i].setXyz(grad[i].xyz() + 2 * phi[i][3] * surfaceVector(s, i, filter));
+}
+
+}  // namespace
+
+List<scalar> sphc::div(const stencil& s, const List<vec4>& phi, divergenceScheme scheme,
+                       pairFilter filter)
+{
+    const List<tensor>& B = filter == pairFilter::all ? s.B.all : s.B.same;
+    const tensor* correction = scheme == divergenceScheme::corrected ? B.data() : nullptr;
+    List<scalar> result(s.cloud.n());
+    parallelFor(s.cloud.n(), [&](label begin, label end) {
+        divRange(s, phi.data(), correction, filter, begin, end, result.data());
+    });
+    return result;
+}
+
+List<vec4> sphc::grad(const stencil& s, const List<vec4>& phi, gradientScheme scheme,
+                      pairFilter filter)
+{
+    List<vec4> result(s.cloud.n());
+    parallelFor(s.cloud.n(), [&](label begin, label end) {
+        gradRange(s, phi.data(), filter, begin, end, result.data());
+        if (scheme == gradientScheme::correctedDifference)
+            correct(s, filter, begin, end, result.data());
+        if (scheme == gradientScheme::symmetric)
+            symmetrise(s, phi.data(), filter, begin, end, result.data());
+    });
+    return result;
+}
+
+List<vec4> sphc::laplacian(const stencil& s, const List<vec4>& phi, pairFilter filter)
+{
+    List<vec4> result(s.cloud.n());
+    parallelFor(s.cloud.n(), [&](label begin, label end) {
+        laplacianRange(s, phi.data(), filter, begin, end, result.data());
+    });
+    return result;
+}
+
+}  // namespace ispf
