@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sphm.H"
+#include "imageEntries.H"
+
+#include <algorithm>
+
+namespace ispf
+{
+
+namespace
+{
+
+// Rows of one block, put one after the other at the end
+struct block
+{
+    List<label> length;
+    List<std::int32_t> column;
+    List<scalar> value;
+};
+
+}  // namespace
+
+class pressureAssembly
+{
+public:
+    pressureAssembly(const stencil& s, pressureEquation& equation) : s_(s), eq_(equation)
+    {
+        images_.build(s.cloud, s.list);
+    }
+
+    void run()
+    {
+        const label n = s_.cloud.n(), nBlocks = (n + blockRows - 1) / blockRows;
+        eq_.A.diagonal.resize(n), eq_.boundary_.resize(n);
+        eq_.fixed_.assign(s_.cloud.pFixed.begin(), s_.cloud.pFixed.end());
+        List<block> part(nBlocks);
+        parallelFor(
+            nBlocks,
+            [&](label begin, label end) {
+                for (label b = begin; b < end; ++b)
+                    for (label i = b * blockRows; i < std::min(n, (b + 1) * blockRows); ++i)
+                        row(i, part[b]);
+            },
+            1);
+        join(part);
+        eq_.singular = !images_.fixesPressure &&
+                       std::find(eq_.fixed_.begin(), eq_.fixed_.end(), 1) == eq_.fixed_.end();
+    }
+
+private:
+    static constexpr label blockRows = 2048;
+
+    void row(label i, block& out)
+    {
+        const size_t first = out.column.size();
+        scalar diagonal = images_.diagonal[i], boundary = images_.source[i];
+        for (std::int64_t k = s_.list.start[i]; k < s_.list.start[i + 1]; ++k)
+        {
+            const label j = s_.list.index[k];
+            const scalar w = -2 * s_.list.F[k];
+            if (j >= s_.cloud.n() || w == 0) continue;
+            diagonal += w;
+            add(out, j, -w, boundary);
+        }
+        const size_t owned = out.column.size();
+        for (label k = images_.start[i]; k < images_.start[i + 1]; ++k)
+            addImage(out, {first, owned}, images_.entries[k], boundary);
+
+        if (eq_.fixed_[i]) out.column.resize(first), out.value.resize(first);
+        // a particle without neighbours keeps a regular row
+        eq_.A.diagonal[i] = diagonal > 0 ? diagonal : 1 / (s_.cloud.dx * s_.cloud.dx);
+        eq_.boundary_[i] = eq_.fixed_[i] ? eq_.A.diagonal[i] * s_.cloud.pGiven[i] : boundary;
+        out.length.push_back(label(out.column.size() - first));
+    }
+
+    void add(block& out, label j, scalar value, scalar& boundary) const
+    {
+        if (eq_.fixed_[j]) boundary -= value * s_.cloud.pGiven[j];
+        else out.column.push_back(j), out.value.push_back(value);
+    }
+
+    // A source that is also an ordinary neighbour, among [first, owned), has one entry
+    void addImage(block& out, std::pair<size_t, size_t> neighbours, const imageEntries::entry& e,
+                  scalar& boundary) const
+    {
+        const auto from = out.column.begin() + neighbours.first,
+                   to = out.column.begin() + neighbours.second;
+        const auto found = std::find(from, to, e.column);
+        if (found != to) out.value[size_t(found - out.column.begin())] += e.offDiagonal;
+        else add(out, e.column, e.offDiagonal, boundary);
+    }
+
+    void join(const List<block>& part)
+    {
+        csrMatrix& A = eq_.A;
+        const label n = s_.cloud.n();
+        A.rowStart.assign(n + 1, 0);
+        label row = 0;
+        for (const block& p : part)
+            for (const label length : p.length)
+                A.rowStart[row + 1] = A.rowStart[row] + length, ++row;
+        A.column.resize(A.rowStart[n]), A.value.resize(A.rowStart[n]);
+        parallelFor(
+            label(part.size()),
+            [&](label begin, label end) {
+                for (label b = begin; b < end; ++b)
+                {
+                    const label to = A.rowStart[b * blockRows];
+                    std::copy(part[b].column.begin(), part[b].column.end(), A.column.begin() + to);
+                    std::copy(part[b].value.begin(), part[b].value.end(), A.value.begin() + to);
+                }
+            },
+            1);
+    }
+
+    const stencil& s_;
+    pressureEquation& eq_;
+    imageEntries images_;
+};
+
+void sphm::laplacian(const stencil& s, pressureEquation& equation)
+{
+    pressureAssembly(s, equation).run();
+}
+
+scalar pressureEquation::setSource(const List<scalar>& f)
+{
+    const label n = A.size();
+    source.resize(n);
+    for (label i = 0; i < n; ++i) source[i] = boundary_[i] + (fixed_[i] ? 0 : f[i]);
+    if (!singular) return 0;
+    const scalar mean = parallelSum(n,
+                                    [&](label begin, label end) {
+                                        scalar sum = 0;
+                                        for (label i = begin; i < end; ++i) sum += source[i];
+                                        return sum;
+                                    }) /
+                        scalar(n);
+    for (scalar& b : source) b -= mean;
+    return mean;
+}
+
+}  // namespace ispf
