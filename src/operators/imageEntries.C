@@ -9,11 +9,27 @@ namespace ispf
 namespace
 {
 
-// w (p_i - m p_s - b) in row i
+struct weighted
+{
+    scalar w = 0, wb = 0;
+    void operator+=(const weighted& a) { w += a.w, wb += a.wb; }
+};
+
+// w (p_i - m p_s - b) in row i: its own half and the half that mirrors the row of the source
 struct link
 {
     label row, column;
-    scalar m, w, wb;
+    scalar m;
+    weighted own, mirrored;
+
+    scalar weight() const { return own.w + mirrored.w; }
+    // b is the row's own business (a wall's body-force jump has one sign on both sides, a cyclic
+    // jump two); only a row that does not see the image takes the other's
+    scalar source() const
+    {
+        const weighted& b = own.w > 0 ? own : mirrored;
+        return weight() * b.wb / b.w;
+    }
 };
 
 bool before(const link& a, const link& c)
@@ -46,7 +62,7 @@ struct linkRows
         label to = start[i];
         for (label k = start[i] + 1; k < start[i + 1]; ++k)
             if (links[k].column == links[to].column && links[k].m == links[to].m)
-                links[to].w += links[k].w, links[to].wb += links[k].wb;
+                links[to].own += links[k].own, links[to].mirrored += links[k].mirrored;
             else links[++to] = links[k];
         end[i] = to + 1;
     }
@@ -60,8 +76,11 @@ void appendLinks(const particleCloud& cloud, const neighbourList& list, label i,
         if (j < cloud.n() || cloud.phase[j] == phaseType::rigid) continue;
         const scalar w = -2 * list.F[k];
         if (w > 0)
-            links.push_back(
-                {i, cloud.ghostSource(j), cloud.ruleOf(j).M(3, 3), w, w * cloud.ghostOffset(j)[3]});
+            links.push_back({i,
+                             cloud.ghostSource(j),
+                             cloud.ruleOf(j).M(3, 3),
+                             {w, w * cloud.ghostOffset(j)[3]},
+                             {}});
     }
 }
 
@@ -83,8 +102,7 @@ List<link> linksOf(const particleCloud& cloud, const neighbourList& list)
     return links;
 }
 
-// Half of each link in its own row, half as its mirror in the row of the source.  The energy
-// w (p_i - m p_s - b)^2 / 2 has the derivative -m w (p_i - m p_s - b) with respect to p_s.
+// Half of each link stays in its own row, half goes to the row of the source
 List<link> symmetrised(const linkRows& rows)
 {
     List<link> links;
@@ -93,10 +111,10 @@ List<link> symmetrised(const linkRows& rows)
         for (label k = rows.start[i]; k < rows.end[i]; ++k)
         {
             link l = rows.links[k];
-            const bool mirrored = l.row != l.column && l.m != 0;
-            if (mirrored) l.w *= 0.5, l.wb *= 0.5;
+            const bool pair = l.row != l.column && l.m != 0;
+            if (pair) l.own.w *= 0.5, l.own.wb *= 0.5;
             links.push_back(l);
-            if (mirrored) links.push_back({l.column, l.row, l.m, l.w, -l.m * l.wb});
+            if (pair) links.push_back({l.column, l.row, l.m, {}, l.own});
         }
     return links;
 }
@@ -107,7 +125,6 @@ void imageEntries::build(const particleCloud& cloud, const neighbourList& list)
 {
     const label n = cloud.n();
     start.assign(n + 1, 0), diagonal.assign(n, 0), source.assign(n, 0), entries.clear();
-    fixesPressure = false;
     if (cloud.nGhosts() == 0) return;
 
     const linkRows oneSided(n, linksOf(cloud, list));
@@ -118,13 +135,12 @@ void imageEntries::build(const particleCloud& cloud, const neighbourList& list)
         for (label k = rows.start[i]; k < rows.end[i]; ++k)
         {
             const link& l = rows.links[k];
-            fixesPressure |= l.m != 1;
-            source[i] += l.wb;
-            diagonal[i] += l.w;
-            if (l.column == i) diagonal[i] -= l.m * l.w;
+            source[i] += l.source();
+            diagonal[i] += l.weight();
+            if (l.column == i) diagonal[i] -= l.m * l.weight();
             else if (label(entries.size()) > start[i] && entries.back().column == l.column)
-                entries.back().offDiagonal -= l.m * l.w;
-            else entries.push_back({l.column, -l.m * l.w});
+                entries.back().offDiagonal -= l.m * l.weight();
+            else entries.push_back({l.column, -l.m * l.weight()});
         }
     }
     start[n] = label(entries.size());

@@ -43,8 +43,7 @@ public:
             },
             1);
         join(part);
-        eq_.singular = !images_.fixesPressure &&
-                       std::find(eq_.fixed_.begin(), eq_.fixed_.end(), 1) == eq_.fixed_.end();
+        eq_.nullSpace = constantNullSpace::of(eq_.A);
     }
 
 private:
@@ -123,21 +122,12 @@ void sphm::laplacian(const stencil& s, pressureEquation& equation)
     pressureAssembly(s, equation).run();
 }
 
-scalar pressureEquation::setSource(const List<scalar>& f)
+void pressureEquation::setSource(const List<scalar>& f)
 {
     const label n = A.size();
     source.resize(n);
     for (label i = 0; i < n; ++i) source[i] = boundary_[i] + (fixed_[i] ? 0 : f[i]);
-    if (!singular) return 0;
-    const scalar mean = parallelSum(n,
-                                    [&](label begin, label end) {
-                                        scalar sum = 0;
-                                        for (label i = begin; i < end; ++i) sum += source[i];
-                                        return sum;
-                                    }) /
-                        scalar(n);
-    for (scalar& b : source) b -= mean;
-    return mean;
+    nullSpace.project(source);
 }
 
 }  // namespace ispf

@@ -27,11 +27,12 @@ struct searchGrid
         cell = size;
         vector high = low = p[0].xyz();
         for (const vec4& q : p) low = low.cwiseMin(q.xyz()), high = high.cwiseMax(q.xyz());
+        const scalar cells = ((high - low) / cell).array().max(1).prod();
+        if (!(cells < 1e9))
+            throw fatalError("The particles spread over " + str(cells) +
+                             " search cells: some have flown away. The run is unstable");
         nx = cellOf(high[0], 0) + 1, ny = cellOf(high[1], 1) + 1, nz = cellOf(high[2], 2) + 1;
         const label n = label(p.size());
-        if (scalar(nx) * scalar(ny) * scalar(nz) > 1e9)
-            throw fatalError("The particles spread over " + str(scalar(nx) * ny * nz) +
-                             " search cells: some have flown away. The run is unstable");
         start.assign(size_t(nx * ny * nz + 1), 0);
         List<label> key(n);
         for (label i = 0; i < n; ++i)

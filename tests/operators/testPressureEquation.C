@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "periodicBox.H"
+#include "sphm.H"
+
+#include "PCG.H"
+
+#include <doctest/doctest.h>
+
+using namespace ispf;
+
+namespace
+{
+
+Eigen::MatrixXd dense(const csrMatrix& A)
+{
+    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(A.size(), A.size());
+    for (label i = 0; i < A.size(); ++i)
+    {
+        D(i, i) += A.diagonal[i];
+        for (label k = A.rowStart[i]; k < A.rowStart[i + 1]; ++k) D(i, A.column[k]) += A.value[k];
+    }
+    return D;
+}
+
+Eigen::VectorXd asEigen(const List<scalar>& v)
+{
+    return Eigen::Map<const Eigen::VectorXd>(v.data(), Eigen::Index(v.size()));
+}
+
+// A channel of disordered particles: periodic in x (one cell), images p -> m p + b beyond y = 0, 1
+struct channel
+{
+    particleCloud cloud;
+    std::unique_ptr<smoothingKernel> kernel;
+    neighbourList list;
+    kernelCorrection B;
+    pressureEquation equation;
+
+    // m, b for the lower and the upper side; shearOfImages displaces them, so that distances are
+    // not those of a true reflection, as beside a curved wall
+    channel(scalar mLow, scalar bLow, scalar mHigh, scalar bHigh, scalar shearOfImages = 0,
+            scalar disorder = 0.2)
+    {
+        cloud.nDims = 2, cloud.dx = 1.0 / n;
+        cloud.zones = {{"fluid", phaseType::fluid, false}};
+        std::mt19937 random(3);
+        std::uniform_real_distribution<scalar> shift(-disorder, disorder);
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i)
+                cloud.append(vector(i + 0.5 + shift(random), j + 0.5 + shift(random), 0) / n, 0,
+                             vec4{}, cloud.nextId());
+        kernel = smoothingKernel::New("WendlandC2", 2, 1.3 * cloud.dx);
+        const label same = addRule(1), low = addRule(mLow), high = addRule(mHigh);
+        for (const scalar side : {-1.0, 0.0, 1.0})
+            for (label i = 0; i < cloud.n(); ++i)
+            {
+                const vector x = cloud.x[i].xyz() + vector(side, 0, 0);
+                if (side != 0) image(i, same, x, 0);
+                image(i, low, vector(x[0] + shearOfImages * x[1], -x[1], 0), bLow);
+                image(i, high, vector(x[0] + shearOfImages * (1 - x[1]), 2 - x[1], 0), bHigh);
+            }
+        refresh();
+    }
+
+    void refresh()
+    {
+        list.build(cloud, *kernel);
+        B.build(cloud, list);
+        sphm::laplacian({cloud, list, B}, equation);
+    }
+
+    static constexpr int n = 12;
+
+private:
+    label addRule(scalar m)
+    {
+        Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
+        M(3, 3) = m;
+        return cloud.addRule(M, tensor::Identity());
+    }
+    void image(label source, label rule, const vector& x, scalar b)
+    {
+        const scalar reach = kernel->support();
+        if (x[0] > -reach && x[0] < 1 + reach && x[1] > -reach && x[1] < 1 + reach)
+            cloud.addImage(source, rule, x, vec4{{0, 0, 0, b}});
+    }
+};
+
+}  // namespace
+
+TEST_CASE("the pressure matrix is symmetric, also where images are not true reflections")
+{
+    for (const scalar shear : {0.0, 0.4})
+    {
+        const channel c(1, 0, -1, 6, shear);
+        const Eigen::MatrixXd A = dense(c.equation.A);
+        CHECK((A - A.transpose()).cwiseAbs().maxCoeff() < 1e-12 * A.cwiseAbs().maxCoeff());
+        CHECK(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues().minCoeff() > 0);
+        CHECK(c.equation.nullSpace.empty());
+    }
+    const channel closed(1, 0, 1, 0, 0.4);
+    CHECK(closed.equation.nullSpace.nSets() == 1);
+}
+
+TEST_CASE("the matrix applies the Laplacian that sphc evaluates with filled ghosts")
+{
+    channel c(1, 0.7, -1, 6);
+    List<vec4> phi(c.cloud.n());
+    List<scalar> p(c.cloud.n()), Ap(c.cloud.n());
+    for (label i = 0; i < c.cloud.n(); ++i)
+        p[i] = phi[i][3] = std::sin(3 * c.cloud.x[i][0]) + c.cloud.x[i][1];
+    c.cloud.fillGhosts(phi, false);
+    const List<vec4> lap = sphc::laplacian({c.cloud, c.list, c.B}, phi);
+    c.equation.A.apply(p, Ap);
+    c.equation.setSource(List<scalar>(c.cloud.n(), 0));
+    for (label i = 0; i < c.cloud.n(); ++i)
+        CHECK(Ap[i] - c.equation.source[i] == doctest::Approx(-lap[i][3]).epsilon(1e-9));
+}
+
+TEST_CASE("two fixed ends give the straight line between, exactly on a lattice")
+{
+    for (const scalar disorder : {0.0, 0.2})
+    {
+        // p = 1 at y = 0 and 3 at y = 1 by odd images: p_g = 2 p_end - p_s
+        channel c(-1, 2, -1, 6, 0, disorder);
+        c.equation.setSource(List<scalar>(c.cloud.n(), 0));
+        const Eigen::VectorXd p = dense(c.equation.A).ldlt().solve(asEigen(c.equation.source));
+        for (label i = 0; i < c.cloud.n(); ++i)
+            CHECK(std::abs(p[i] - 1 - 2 * c.cloud.x[i][1]) < (disorder > 0 ? 0.04 : 1e-12));
+    }
+}
+
+TEST_CASE("fixed particles are eliminated on both sides")
+{
+    channel c(1, 0, 1, 0);
+    const Eigen::MatrixXd free = dense(c.equation.A);
+    for (label i = 0; i < c.cloud.n(); ++i)
+        if (c.cloud.x[i][1] < 0.2) c.cloud.pFixed[i] = 1, c.cloud.pGiven[i] = 4 + c.cloud.x[i][0];
+    c.refresh();
+    const Eigen::MatrixXd A = dense(c.equation.A);
+    CHECK((A - A.transpose()).cwiseAbs().maxCoeff() < 1e-12 * A.cwiseAbs().maxCoeff());
+    CHECK(c.equation.nullSpace.empty());
+
+    List<scalar> f(c.cloud.n());
+    for (label i = 0; i < c.cloud.n(); ++i) f[i] = 1 + std::sin(7 * c.cloud.x[i][1]);
+    c.equation.setSource(f);
+    const Eigen::VectorXd p = A.ldlt().solve(asEigen(c.equation.source));
+    const Eigen::VectorXd residual = free * p - asEigen(f);
+    for (label i = 0; i < c.cloud.n(); ++i)
+        if (c.cloud.pFixed[i]) CHECK(p[i] == doctest::Approx(c.cloud.pGiven[i]));
+        else CHECK(std::abs(residual[i]) < 1e-8);
+}
+
+TEST_CASE("a closed box is solved up to a constant, by conjugate gradients as by elimination")
+{
+    channel c(1, 0, 1, 0);
+    List<scalar> f(c.cloud.n()), p(c.cloud.n(), 0);
+    for (label i = 0; i < c.cloud.n(); ++i) f[i] = 1 + std::cos(M_PI * c.cloud.x[i][1]);
+    c.equation.setSource(f);
+    CHECK(std::abs(asEigen(c.equation.source).sum()) < 1e-9);
+
+    PCG solver({1e-12, 0, 0, 1000}, "p");
+    CHECK(solver.solve(c.equation.A, noPreconditioner(), c.equation.source, p).converged);
+    Eigen::MatrixXd pinned = dense(c.equation.A);
+    pinned.array() += 1;  // adds the constant's own eigenvalue
+    const Eigen::VectorXd exact = pinned.ldlt().solve(asEigen(c.equation.source));
+    const scalar mean = asEigen(p).mean();
+    for (label i = 0; i < c.cloud.n(); ++i)
+        CHECK(p[i] - mean == doctest::Approx(exact[i]).epsilon(1e-8));
+}
+
+TEST_CASE("rigid neighbours are absent from the matrix")
+{
+    channel c(1, 0, -1, 6);
+    const Eigen::MatrixXd before = dense(c.equation.A);
+    c.cloud.addRigid({0.31, 0.47, 0}, {1, 2, 0});
+    c.refresh();
+    CHECK((dense(c.equation.A) - before).cwiseAbs().maxCoeff() == 0);
+}
