@@ -73,7 +73,8 @@ void joinBucket(const multigridLevel& level, const buckets& sorted, label begin,
         for (label k = level.rowStart[i]; k < level.rowStart[i + 1]; ++k)
         {
             const label j = level.column[k], q = sorted.place[j];
-            if (q < begin || q >= end || level.value[k] == 0 || level.group[i] != level.group[j])
+            if (q < begin || q >= end || level.value[k] == 0 || !level.follows(i, j) ||
+                !level.follows(j, i))
                 continue;
             const label a = findRoot(parent, p), b = findRoot(parent, q);
             if (a == b) continue;

@@ -125,14 +125,11 @@ struct cellMultigrid::coarsestSolver
     }
 };
 
-multigridOptions multigridOptions::fromDict(const dictionary& dict, scalar cellSize)
+void multigridOptions::read(const dictionary& dict)
 {
-    multigridOptions o;
-    o.cellSize = cellSize;
-    o.cycle = dict.chooseOrDefault("cycle", {"V", "K"}, o.cycle);
-    o.omega = dict.getInRangeOrDefault("omega", 0.1, 1.9, o.omega);
-    o.coarsestSize = label(dict.getInRangeOrDefault("coarsestSize", 1, 5000, o.coarsestSize));
-    return o;
+    cycle = dict.chooseOrDefault("cycle", {"V", "K"}, cycle);
+    omega = dict.getInRangeOrDefault("omega", 0.1, 1.9, omega);
+    coarsestSize = label(dict.getInRangeOrDefault("coarsestSize", 1, 5000, coarsestSize));
 }
 
 cellMultigrid::cellMultigrid(const csrMatrix& A, const List<vector>& x,
@@ -195,6 +192,7 @@ void cellMultigrid::buildFinest(const csrMatrix& A, const List<vector>& x,
         }
     });
     f.weight = f.diagonal;
+    f.nRows.assign(n, 1);
     f.group = group.empty() ? List<std::uint8_t>(n, 0) : group;
 }
 

@@ -90,7 +90,8 @@ void placeAggregates(const multigridLevel& fine, const cellAggregates& aggregate
 {
     const label n = aggregates.n;
     coarse.point.resize(n), coarse.group.resize(n);
-    coarse.excess.assign(n, 0), coarse.weight.assign(n, 0), coarse.diagonal.assign(n, 0);
+    coarse.excess.assign(n, 0), coarse.weight.assign(n, 0), coarse.nRows.assign(n, 0),
+        coarse.diagonal.assign(n, 0);
     for (label a = 0; a < n; ++a)
     {
         const label first = aggregates.member[aggregates.start[a]];
@@ -101,6 +102,7 @@ void placeAggregates(const multigridLevel& fine, const cellAggregates& aggregate
         {
             coarse.excess[a] += fine.excess[aggregates.member[m]];
             coarse.weight[a] += fine.weight[aggregates.member[m]];
+            coarse.nRows[a] += fine.nRows[aggregates.member[m]];
         }
     }
 }
@@ -148,7 +150,7 @@ void interpolateRow(const multigridLevel& coarse, label own, float4 x, float inv
     {
         const label J = coarse.column[k];
         const float w = hat(J);
-        if (w <= 0 || coarse.value[k] == 0 || coarse.group[J] != coarse.group[own]) continue;
+        if (w <= 0 || coarse.value[k] == 0 || !coarse.follows(own, J)) continue;
         // More than eight only where cells hold several aggregates: the lightest gives way
         const int at = n < 8 ? n++ : int(std::min_element(weight + 1, weight + 8) - weight);
         if (at == n - 1 || w > weight[at]) column[at] = J, weight[at] = w;

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "linearSolver.H"
+
+#include "FGMRES.H"
+#include "PBiCGStab.H"
+#include "PCG.H"
+#include "parallel.H"
+#include "cellMultigrid.H"
+#include "choleskySolver.H"
+#include "diagonalPreconditioner.H"
+#include "incompleteFactor.H"
+#include "luSolver.H"
+#include <ostream>
+
+namespace ispf
+{
+
+namespace
+{
+
+const List<word> solverWords = {"PCG", "PBiCGStab", "FGMRES", "direct"};
+const List<word> preconditionerWords = {"multigrid", "DIC", "DILU", "diagonal", "none"};
+
+// Keys that another choice of words would use: read, and named once in the log
+void passOver(const dictionary& dict, const List<word>& keys, const word& choice)
+{
+    List<word> present;
+    for (const word& key : keys)
+        if (dict.found(key)) dict.tokens(key), present.push_back(key);
+    if (!present.empty())
+        info() << dict.scope() << ": " << join(present, ", ") << " not used by " << choice
+               << std::endl;
+}
+
+class iterativeSolver : public linearSolver
+{
+public:
+    iterativeSolver(const word& fieldName, const word& solver, const dictionary& dict)
+        : method_(solver),
+          dict_(dict),
+          preconditioner_(dict.choose("preconditioner", preconditionerWords))
+    {
+        const solverControls controls = solverControls::fromDict(dict);
+        if (solver == "PCG") krylov_ = std::make_unique<PCG>(controls, fieldName);
+        if (solver == "PBiCGStab") krylov_ = std::make_unique<PBiCGStab>(controls, fieldName);
+        if (solver == "FGMRES")
+            krylov_ = std::make_unique<FGMRES>(
+                controls, fieldName, label(dict.getInRangeOrDefault("restart", 1, 1000, 60)));
+        else passOver(dict, {"restart"}, solver);
+
+        if (preconditioner_ != "multigrid")
+        {
+            passOver(dict, {"cycle", "omega", "coarsestSize"}, preconditioner_);
+            return;
+        }
+        options_.cycle = word(solver == "PBiCGStab" ? "V" : "K");
+        options_.read(dict);
+        if (solver == "PBiCGStab" && options_.cycle == "K")
+            dict.fail("cycle",
+                      "the K-cycle differs from one application to the next, which "
+                      "PBiCGStab does not bear; use cycle V, or solver FGMRES");
+    }
+
+    solverPerformance solve(const linearSystem& system, const List<scalar>& b,
+                            List<scalar>& x) override
+    {
+        if (method_ == "PCG" && !system.symmetric)
+            dict_.fail("solver", "the matrix is not symmetric; use PBiCGStab or FGMRES");
+        constantNullSpace floating;
+        const auto M = makePreconditioner(system, floating);
+        if (floating.empty()) return krylov_->solve(system.A, *M, b, x);
+
+        List<scalar> compatible(b);
+        floating.project(compatible);
+        floating.project(x);
+        const solverPerformance done = krylov_->solve(system.A, *M, compatible, x);
+        floating.project(x);
+        return done;
+    }
+
+private:
+    std::unique_ptr<preconditioner> makePreconditioner(const linearSystem& system,
+                                                       constantNullSpace& floating) const
+    {
+        const csrMatrix& A = system.A;
+        if (preconditioner_ == "multigrid")
+        {
+            if (!system.points)
+                dict_.fail("preconditioner",
+                           "this system has no points to build a multigrid on; "
+                           "use DILU, diagonal or none");
+            multigridOptions options = options_;
+            options.cellSize = system.cellSize;
+            auto multigrid = std::make_unique<cellMultigrid>(
+                A, *system.points, options, system.groups ? *system.groups : List<std::uint8_t>());
+            if (system.symmetric) floating = multigrid->nullSpace();
+            return multigrid;
+        }
+        if (system.symmetric) floating = constantNullSpace::of(A);
+        if (preconditioner_ == "DIC" && !system.symmetric)
+            dict_.fail("preconditioner", "DIC needs a symmetric matrix; use DILU");
+        if (preconditioner_ == "diagonal") return std::make_unique<diagonalPreconditioner>(A);
+        if (preconditioner_ == "none") return std::make_unique<noPreconditioner>();
+        return std::make_unique<incompleteFactor>(A, preconditioner_);
+    }
+
+    word method_;
+    dictionary dict_;  // for messages
+    word preconditioner_;
+    multigridOptions options_;
+    std::unique_ptr<krylovSolver> krylov_;
+};
+
+class directSolver : public linearSolver
+{
+public:
+    directSolver(const word& fieldName, const dictionary& dict) : fieldName_(fieldName)
+    {
+        passOver(dict,
+                 {"preconditioner", "tolerance", "relTol", "absTol", "maxIter", "restart", "cycle",
+                  "omega", "coarsestSize"},
+                 "direct");
+    }
+
+    solverPerformance solve(const linearSystem& system, const List<scalar>& b,
+                            List<scalar>& x) override
+    {
+        const constantNullSpace floating =
+            system.symmetric ? constantNullSpace::of(system.A) : constantNullSpace();
+        List<scalar> right(b), r(b.size());
+        floating.project(right);
+        residual(system.A, right, x, r);
+        solverControls once;
+        once.maxIter = 1;
+        convergence state(once, word("direct") + (system.symmetric ? "Cholesky" : "LU"), fieldName_,
+                          norm(right), norm(r));
+        if (system.symmetric) cholesky_.factorise(system.A), cholesky_.apply(right, x);
+        else lu_.factorise(system.A), lu_.apply(right, x);
+        residual(system.A, right, x, r);
+        state.stop(1, norm(r));
+        return state.result();
+    }
+
+private:
+    word fieldName_;
+    choleskySolver cholesky_;
+    luSolver lu_;
+};
+
+}  // namespace
+
+std::unique_ptr<linearSolver> linearSolver::New(const word& fieldName, const dictionary& dict)
+{
+    const word solver = dict.choose("solver", solverWords);
+    if (solver == "direct") return std::make_unique<directSolver>(fieldName, dict);
+    return std::make_unique<iterativeSolver>(fieldName, solver, dict);
+}
+
+}  // namespace ispf
