@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Function1Table.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ispf
+{
+
+Function1Table::Function1Table(const List<row>& rows, const word& outOfBounds,
+                               const fileLocation& where)
+    : outOfBounds_(outOfBounds), where_(where)
+{
+    if (rows.empty()) throw fatalError("The table has no rows.", where);
+    for (const row& r : rows)
+    {
+        if (!t_.empty() && !(r.t > t_.back()))
+            throw fatalError("The times of a table must increase, but " + str(r.t, 10) +
+                                 " follows " + str(t_.back(), 10) + ".",
+                             r.where);
+        t_.push_back(r.t);
+        v_.push_back(r.value);
+    }
+}
+
+const List<word>& Function1Table::outOfBoundsWords()
+{
+    static const List<word> words = {"error", "warn", "clamp", "repeat"};
+    return words;
+}
+
+scalar Function1Table::inside(scalar t) const
+{
+    const size_t k = size_t(std::upper_bound(t_.begin(), t_.end(), t) - t_.begin());
+    if (k == 0) return v_.front();
+    if (k == t_.size()) return v_.back();
+    const scalar w = (t - t_[k - 1]) / (t_[k] - t_[k - 1]);
+    return (1 - w) * v_[k - 1] + w * v_[k];
+}
+
+scalar Function1Table::value(scalar t) const
+{
+    if ((t >= t_.front() && t <= t_.back()) || outOfBounds_ == "clamp") return inside(t);
+    if (outOfBounds_ == "repeat")
+    {
+        const scalar period = t_.back() - t_.front();
+        return period > 0 ? inside(t - period * std::floor((t - t_.front()) / period)) : v_.front();
+    }
+    const word range = str(t_.front(), 10) + " to " + str(t_.back(), 10);
+    if (outOfBounds_ == "error")
+        throw fatalError("Time " + str(t, 10) + " lies outside the table, which spans " + range +
+                             ".\nExtend it, or set outOfBounds to warn, clamp or repeat.",
+                         where_);
+    warning(where_.file + "." + where_.scope + ": a time outside the table (" + range +
+                ") takes the value at its end.",
+            1);
+    return inside(t);
+}
+
+}  // namespace ispf

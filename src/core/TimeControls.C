@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// controlDict, the time folders and uniform/time.
+#include "Time.H"
+
+#include "fileNames.H"
+#include "token.H"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+
+namespace ispf
+{
+
+namespace
+{
+
+constexpr scalar never = std::numeric_limits<scalar>::infinity();
+
+// Half a unit of the last digit of a folder name such as 0.125 or 1.5e-05
+scalar resolution(const word& name)
+{
+    const size_t e = name.find_first_of("eE"), dot = name.find('.');
+    const int exponent = e == word::npos ? 0 : std::stoi(name.substr(e + 1));
+    const size_t end = std::min(e, name.size());
+    const int decimals = dot == word::npos ? 0 : int(end - dot) - 1;
+    return 0.5001 * std::pow(10.0, exponent - decimals);
+}
+
+}  // namespace
+
+void Time::readControls(const dictionary& d)
+{
+    stopAt_ =
+        d.chooseOrDefault("stopAt", {"endTime", "writeNow", "noWriteNow", "nextWrite"}, "endTime");
+    endTime_ = stopAt_ == "endTime" || d.found("endTime") ? d.get<scalar>("endTime") : never;
+    const scalar dt = d.getInRange("deltaT", std::numeric_limits<scalar>::min(), 1e30);
+    maxDeltaT_ = d.getInRangeOrDefault("maxDeltaT", std::numeric_limits<scalar>::min(), 1e30, 1e30);
+    if (dt != askedDeltaT_) deltaT_ = std::min(dt, maxDeltaT_);
+    askedDeltaT_ = dt;
+    adjust_ = d.getOrDefault<bool>("adjustTimeStep", false);
+    modifiable_ = d.getOrDefault<bool>("runTimeModifiable", false);
+    readWriteControls(d);
+    // What an OpenFOAM user writes here but has no effect on us
+    for (const char* key : {"application", "writeFormat", "writeCompression", "writePrecision"})
+        d.found(key);
+}
+
+void Time::readWriteControls(const dictionary& d)
+{
+    const List<word> controls = {
+        "timeStep", "runTime", "adjustableRunTime", "adjustable", "clockTime", "cpuTime", "none"};
+    writeControl_ = d.chooseOrDefault("writeControl", controls, "timeStep");
+    if (writeControl_ == "adjustable") writeControl_ = "adjustableRunTime";
+    if (writeControl_ != "none")
+    {
+        writeInterval_ = d.getInRange("writeInterval", std::numeric_limits<scalar>::min(), 1e30);
+        if (writeControl_ == "timeStep" && d.get<label>("writeInterval") < 1)
+            d.fail("writeInterval", "With 'writeControl timeStep' this counts steps: 1 or more.");
+    }
+    writeTimes_ = d.getOrDefault<List<scalar>>("writeTimes", {});
+    std::sort(writeTimes_.begin(), writeTimes_.end());
+    purge_ = label(d.getInRangeOrDefault("purgeWrite", 0, 1e9, 0));
+    format_ = d.chooseOrDefault("timeFormat", {"general", "fixed", "scientific"}, "general");
+    precision_ = std::max(grownPrecision_, int(d.getInRangeOrDefault("timePrecision", 1, 17, 6)));
+}
+
+// The dictionary read first stays as it is: others hold references into it
+void Time::rereadIfModified()
+{
+    const std::int64_t stamp = modificationStamp(controlFile());
+    if (stamp == controlStamp_ || stamp == 0) return;
+    controlStamp_ = stamp;
+    try
+    {
+        readControls(dictionary::fromFile(controlFile()));
+        info() << "Read the changed " << controlFile() << "\n";
+    }
+    catch (const fatalError& e)  // an editor may have saved half a thought
+    {
+        warning("The changed controlDict is not used:" + formatted(e));
+    }
+}
+
+scalar Time::chosenStart() const
+{
+    const List<word> valid = {"startTime", "firstTime", "latestTime"};
+    const word from = control_.chooseOrDefault("startFrom", valid, "latestTime");
+    const bool given = control_.found("startTime");
+    if (from == "startTime") return control_.get<scalar>("startTime");
+    const scalar otherwise = given ? control_.get<scalar>("startTime") : 0;
+    List<scalar> candidates = times();
+    if (from == "firstTime") return candidates.empty() ? otherwise : candidates.front();
+    while (!candidates.empty() && !hasState(candidates.back())) candidates.pop_back();
+    return candidates.empty() ? otherwise : candidates.back();
+}
+
+List<scalar> Time::times() const
+{
+    List<scalar> all;
+    for (const word& name : folderNames(case_))
+        if (scalar t; readNumber(name, t)) all.push_back(t);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+word Time::folderName(scalar t) const
+{
+    for (const word& name : folderNames(case_))
+        if (scalar number; readNumber(name, number) && std::abs(number - t) <= 1e-12 * std::abs(t))
+            return name;
+    return timeName(t);
+}
+
+bool Time::hasState(scalar t) const
+{
+    const word folder = case_ + "/" + folderName(t);
+    return isFile(folder + "/particles.hdf") || isFile(folder + "/uniform/time");
+}
+
+// The folder name holds few digits; uniform/time holds all of them
+void Time::readState()
+{
+    const word folder = folderName(value_);
+    const dictionary d = dictionary::fromFileIfPresent(case_ + "/" + folder + "/uniform/time");
+    if (d.empty()) return;
+    const scalar exact = d.get<scalar>("value");
+    if (std::abs(exact - value_) > resolution(folder))
+    {
+        warning(d.path() + " speaks of time " + str(exact, 10) +
+                ", its folder of another: the folder's name is believed.");
+        return;
+    }
+    startTime_ = value_ = previous_ = exact;
+    index_ = d.get<label>("index");
+    if (adjust_) deltaT_ = std::min(d.get<scalar>("deltaT"), maxDeltaT_);
+}
+
+void Time::writeState() const
+{
+    const word name = timeName();
+    writeText(timePath() + "/uniform/time",
+              "FoamFile\n{\n    version     2.0;\n    format      ascii;\n"
+              "    class       dictionary;\n    location    \"" +
+                  name + "/uniform\";\n    object      time;\n}\n\nvalue       " + str(value_, 17) +
+                  ";\nname        \"" + name + "\";\nindex       " + std::to_string(index_) +
+                  ";\ndeltaT      " + str(deltaT_, 17) + ";\n");
+}
+
+word Time::timeName(scalar t) const
+{
+    if (t == 0) t = 0;  // no "-0"
+    char text[64];
+    const char* form = format_ == "fixed" ? "%.*f" : format_ == "scientific" ? "%.*e" : "%.*g";
+    std::snprintf(text, sizeof text, form, precision_, t);
+    return text;
+}
+
+}  // namespace ispf

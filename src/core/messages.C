@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "messages.H"
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <mutex>
+#include <new>
+
+namespace ispf
+{
+
+namespace
+{
+
+// Hands characters to stdout and flushes at each end of line
+class lineFlushingBuffer : public std::streambuf
+{
+protected:
+    int_type overflow(int_type c) override
+    {
+        if (c == traits_type::eof()) return c;
+        std::fputc(c, stdout);
+        if (c == '\n') std::fflush(stdout);
+        return c;
+    }
+    std::streamsize xsputn(const char* s, std::streamsize n) override
+    {
+        std::fwrite(s, 1, size_t(n), stdout);
+        if (std::find(s, s + n, '\n') != s + n) std::fflush(stdout);
+        return n;
+    }
+    int sync() override { return std::fflush(stdout); }
+};
+
+int editDistance(const word& a, const word& b)
+{
+    List<int> row(b.size() + 1);
+    for (size_t j = 0; j <= b.size(); ++j) row[j] = int(j);
+    for (size_t i = 1; i <= a.size(); ++i)
+    {
+        int diagonal = row[0];
+        row[0] = int(i);
+        for (size_t j = 1; j <= b.size(); ++j)
+        {
+            const int above = row[j];
+            row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
+            diagonal = above;
+        }
+    }
+    return row[b.size()];
+}
+
+word placeText(const fileLocation& w)
+{
+    word text = "file: " + w.file + (w.scope.empty() ? "" : "." + w.scope);
+    if (w.lineEnd > w.line)
+        text += " from line " + std::to_string(w.line) + " to line " + std::to_string(w.lineEnd);
+    else if (w.line > 0) text += " at line " + std::to_string(w.line);
+    return text + ".";
+}
+
+int report(const word& text)
+{
+    std::fflush(stdout);
+    std::fputs(text.c_str(), stderr);
+    std::fflush(stderr);
+    return 1;
+}
+
+}  // namespace
+
+word formatted(const fatalError& error)
+{
+    word text =
+        error.hasLocation() ? "\n--> FOAM FATAL IO ERROR: \n" : "\n--> FOAM FATAL ERROR: \n";
+    text += error.what();
+    if (error.hasLocation()) text += "\n\n" + placeText(error.location());
+    return text + "\n\nFOAM exiting\n\n";
+}
+
+word validWords(const word& what, List<word> words)
+{
+    std::sort(words.begin(), words.end());
+    return "Valid " + what + "s are: " + join(words);
+}
+
+word didYouMean(const word& given, const List<word>& known)
+{
+    const word* best = nullptr;
+    int least = 1 + int(given.size()) / 3;
+    for (const word& k : known)
+        if (const int d = editDistance(given, k); d <= least && k != given)
+            if (d < least || !best) best = &k, least = d;
+    return best ? " Did you mean '" + *best + "'?" : "";
+}
+
+std::ostream& info()
+{
+    static lineFlushingBuffer buffer;
+    static std::ostream stream(&buffer);
+    return stream;
+}
+
+void warning(const word& text, int most)
+{
+    static std::mutex guard;
+    static std::map<word, int> count;
+    const std::lock_guard<std::mutex> lock(guard);
+    const int n = ++count[text];
+    if (n > most) return;
+    std::fflush(stdout);
+    std::fprintf(stderr, "--> FOAM Warning : %s\n", text.c_str());
+    if (n == most && most > 1) std::fputs("    (not repeated from here on)\n", stderr);
+}
+
+int runMain(const std::function<int()>& body)
+{
+    try
+    {
+        return body();
+    }
+    catch (const fatalError& e)
+    {
+        return report(formatted(e));
+    }
+    catch (const std::bad_alloc&)
+    {
+        return report(formatted(fatalError("Out of memory. Use fewer particles or more memory.")));
+    }
+    catch (const std::exception& e)
+    {
+        return report(formatted(fatalError(e.what())));
+    }
+    catch (const std::string& e)  // gmsh throws plain strings
+    {
+        return report(formatted(fatalError(e)));
+    }
+    catch (...)
+    {
+        return report(formatted(fatalError("An exception of unknown type ended the program.")));
+    }
+}
+
+word str(double value, int digits)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    return text;
+}
+
+word join(const List<word>& words, const word& separator)
+{
+    word all;
+    for (size_t i = 0; i < words.size(); ++i) all += (i ? separator : "") + words[i];
+    return all;
+}
+
+}  // namespace ispf
