@@ -2,14 +2,17 @@
 #include "dictionary.H"
 #include "token.H"
 
-#include "core/errorOf.H"
+#include "errorOf.H"
 
 using namespace ispf;
 
 namespace
 {
 
-dictionary parsed(const word& text) { return dictionary::fromString(text, "case/system/test"); }
+dictionary parsed(const word& text)
+{
+    return dictionary::fromString(text, "case/system/test");
+}
 
 }  // namespace
 
@@ -97,8 +100,9 @@ TEST_CASE("regular-expression keys: exact beats regex, the last regex wins, whol
 
 TEST_CASE("wrong values name the entry and the line")
 {
-    const dictionary d = parsed("a\n1.5.2;\nb 1 2;\nc (1 2);\nd maybe;\ne (1 x);\nf 1.5;\n"
-                                "g 2(1 2 3);\nh { i nan; }\n j 1e400;");
+    const dictionary d = parsed(
+        "a\n1.5.2;\nb 1 2;\nc (1 2);\nd maybe;\ne (1 x);\nf 1.5;\n"
+        "g 2(1 2 3);\nh { i nan; }\n j 1e400;");
     CHECK_ERROR(d.get<scalar>("a"), "finite number, found '1.5.2'", 2);
     CHECK_ERROR(d.get<scalar>("b"), "Unexpected '2'", 3);
     CHECK_ERROR(d.get<vector>("c"), "a vector (x y z)", 4);
@@ -144,7 +148,8 @@ TEST_CASE("checkAllRead names what nobody asked for, and what is asked for")
     d.subDict("s").getOrDefault<scalar>("tolerance", 1);
     d.subDict("s").getOrDefault<scalar>("relTol", 1);
     CHECK_ERROR(d.checkAllRead(),
-                "'tolerence'. Did you mean 'tolerance'?\nValid entries here are: relTol tolerance", 2);
+                "'tolerence'. Did you mean 'tolerance'?\nValid entries here are: relTol tolerance",
+                2);
     d.markAllRead();
     d.checkAllRead();
 }
