@@ -182,6 +182,7 @@ word samplePlane::slice(const particleTable& particles) const
     const particleTable near = nearPlane(particles, sliceThickness_ / 2);
     const List<char> chosen = inZones(near, sliceZones_);
     const List<globalId>& zone = near.integers.at("zone");
+    const List<word> zoneNames = words(near.attributes.at("zones"));
     const auto U = near.vectors.find("U");
     word text = "# x\ty\tn\tzone\tU_x\tU_y\tU_n\n";
     for (size_t i = 0; i < near.size(); ++i)
@@ -189,7 +190,7 @@ word samplePlane::slice(const particleTable& particles) const
         if (!chosen[i]) continue;
         for (const vector& axis : {xAxis_, yAxis_, normal_})
             text += number(axis.dot(near.x[i])) + "\t";
-        text += std::to_string(zone[i]);
+        text += zoneNames[size_t(zone[i])];
         for (const vector& axis : {xAxis_, yAxis_, normal_})
             text += "\t" + (U == near.vectors.end() ? "NaN" : number(axis.dot(U->second[i])));
         text += "\n";

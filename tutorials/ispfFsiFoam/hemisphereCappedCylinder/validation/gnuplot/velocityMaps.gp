@@ -3,7 +3,7 @@
 # colour is the magnitude, the arrows show the direction with constant length.
 # Variables: out; folders, titles (as many words each, a title's blanks as '~'); top [mm/s] of the scale
 n = words(folders)
-set terminal pngcairo size 140 + 360*n, 610 font "Sans,13" noenhanced
+set terminal pngcairo size 175 + 360*n, 610 font "Sans,13" noenhanced
 set output out
 set palette defined (0 "#440154", 1 "#414487", 2 "#2a788e", 3 "#22a884", 4 "#7ad151", 5 "#fde725")
 set cbrange [0:top]
@@ -24,8 +24,8 @@ part(a, u, v) = sqrt(u**2 + v**2) > 1e-7 ? length*a/sqrt(u**2 + v**2) : NaN
 blanks(s) = system(sprintf("printf '%%s' '%s' | tr '~' ' '", s))
 
 set multiplot
-left = 70.0/(140 + 360*n)
-width = 360.0/(140 + 360*n)
+left = 70.0/(175 + 360*n)
+width = 360.0/(175 + 360*n)
 set tmargin at screen 0.93
 set bmargin at screen 0.10
 do for [k=1:n] {

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The table "published | ours | difference".
+# Input: summary.csv (quantity,value) and published.csv
+BEGIN {
+    FS = ","
+    form = "%-34s %10s  %-7s %12s  %s\n"
+    rule = "----------------------------------------------------------------------------------------"
+}
+FNR == NR { ours[$1] = $2; next }
+/^#/ || NF < 6 { next }
+$5 == "measuring" { ++measuring; next }
+{ kind = $5; line[kind, ++n[kind]] = $0 }
+function number(v) { return v + 0 == v ? sprintf("%.6g", v) : v }
+function difference(published, value) {
+    if (published + 0 == 0) return sprintf("%+.3g", value - published)
+    return sprintf("%+.1f %%", 100*(value - published)/(published < 0 ? -published : published))
+}
+function row(name, f, key) {
+    if (!(key in ours)) printf form, name, number(f[2]), f[3], "-", "not in this run"
+    else printf form, name, number(f[2]), f[3], number(ours[key]), difference(f[2], ours[key])
+}
+# "TDC.peak" stands for the stop and the instants of the rest after it
+function rows(f,    k, n, part, key) {
+    if (f[6] !~ /^[TB]DC\./) { row(f[1], f, f[6]); return }
+    n = split("+0.00 +0.20 +0.57 +1.15", part, " ")
+    for (k = 1; k <= n; ++k) {
+        key = substr(f[6], 1, 3) part[k] substr(f[6], 4)
+        if (k == 1 || key in ours) row(k == 1 ? f[1] : "    " part[k] " s", f, key)
+    }
+}
+function section(kind, heading,    k, f) {
+    printf "\n" form rule "\n", heading, "published", "", "ours", "difference"
+    for (k = 1; k <= n[kind]; ++k) {
+        split(line[kind, k], f, ",")
+        if (f[6] == "-") printf form, f[1], number(f[2]), f[3], "-", "not comparable: see README.md"
+        else rows(f)
+    }
+}
+END {
+    print "Hemisphere-capped cylinder, " ours["run"]
+    section("result", "RESULTS")
+    section("input", "INPUT, as the run had it")
+    printf "\n%d more published numbers describe the measurement only.\n", measuring
+}
