@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The case's scripts: plunger curves, options, joining of restarted histories
+set -uo pipefail
+cd "$(dirname "$0")/../tutorials/ispfFsiFoam/hemisphereCappedCylinder"
+failures=0
+fail() { echo "  FAILED: $1"; failures=$((failures+1)); }
+scratch=$(mktemp -d); trap 'rm -rf "$scratch"' EXIT
+
+# The curves are what the script makes of the stated numbers
+cp -r constant/plunger "$scratch/"
+"$scratch/plunger/makeCurves" && diff -r constant/plunger "$scratch/plunger" || fail "plunger curves"
+# and they are the deduced ones: stroke 9.36527 mm at 2.28951 mm/s, rest 1.1475 s, period 10.476 s
+awk -F, '/^[0-9]/ { t[++n] = $1; x[n] = $2 }
+    function off(a, b) { return (a - b)^2 > 1e-10*b^2 }
+    END { exit off(x[2], 9.36527) || off(x[2]/t[2], 2.28951) || off(t[3] - t[2], 1.147486) ||
+               off(x[3], x[2]) || off(t[5] - t[4], 1.147486) || x[5] != 0 || off(t[5], 10.476) }' \
+    constant/plunger/trapezoid.csv || fail "trapezoid"
+awk -F, '/^[0-9]/ { if ($2 > most) most = $2 } END { v = most*atan2(0, -1)*64; exit !(v > 2411 && v < 2411.5) }' \
+    constant/plunger/literal.csv || fail "literal: 2.41 ml"
+
+# A wrong word is refused with the valid ones
+for options in "-dx 0.6" "-variant C" "-curve sine" "-cycles 0" "-E -3" "-foo"; do
+    # shellcheck disable=SC2086
+    ./Allrun $options -prepare > "$scratch/out" 2>&1 && fail "Allrun $options is accepted"
+    grep -q "valid\|is not a" "$scratch/out" || fail "Allrun $options: no reason"
+done
+
+# Restarts: what a later start repeats is replaced
+printf '# x\n# Time\tdiameter\tdDoverD\n0\t20\t0\n1\t21\t5\n2\t99\t99\n' > "$scratch/0.dat"
+printf '# Time\tdDoverD\tdiameter\n2\t10\t22\n3\t15\t23\n' > "$scratch/2.dat"
+joined=$(awk -v want="diameter|dDoverD" -f validation/awk/series.awk "$scratch/0.dat" "$scratch/2.dat" | tr '\n' ';')
+[ "$joined" = "0 20 0;1 21 5;2 22 10;3 23 15;" ] || fail "joined histories: $joined"
+
+# Map of a known flow at rest in the mean: its ring, peak and profile
+awk 'BEGIN { print "# x y U_x U_y U_n"
+    for (j = -8; j <= 40; ++j) for (i = -60; i <= 60; ++i) {
+        x = i*0.25; y = j*0.25; r = x < 0 ? -x : x; s = r/10; z = (y - 6)/4
+        w = s < 1 ? 2*(1 - 2*s*s)*exp(-z*z) : "NaN"
+        print x*1e-3, y*1e-3, s < 1 ? 0 : "NaN", s < 1 ? w*1e-3 : "NaN", s < 1 ? 0 : "NaN" } }' > "$scratch/map.dat"
+awk -v instant=TDC -v nozzle=0 -v above=6e-3 -v dxGrid=0.25e-3 -v profile="$scratch/profile.dat" \
+    -f validation/awk/map.awk "$scratch/map.dat" > "$scratch/map"
+awk '{ q[$1] = $2 } function near(name, v, d) { if ((q[name] - v)^2 > d*d) { print "  " name, q[name]; bad = 1 } }
+    END { near("TDC.peak", 2, 1e-4); near("TDC.peakHeight", 6, 1e-4); near("TDC.ringHeight", 6, 1e-4)
+          near("TDC.ringRadius", 10/sqrt(2), 0.13); near("TDC.fastestInChamber", 2, 1e-4)
+          near("TDC.lineTop", 2, 1e-4); near("TDC.linePeakOverMean", 1/(1 - 2/12), 0.02); exit bad }' \
+    "$scratch/map" || fail "quantities of a map"
+[ $failures = 0 ]
