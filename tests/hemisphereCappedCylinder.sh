@@ -35,10 +35,10 @@ joined=$(awk -v want="diameter|dDoverD" -f validation/awk/series.awk "$scratch/0
 # Map of a known flow at rest in the mean: its ring, peak and profile
 awk 'BEGIN { print "# x y U_x U_y U_n"
     for (j = -8; j <= 40; ++j) for (i = -60; i <= 60; ++i) {
-        x = i*0.25; y = j*0.25; r = x < 0 ? -x : x; s = r/10; z = (y - 6)/4
+        x = i*0.25; y = j*0.25; r = x < 0 ? -x : x; s = r/10; z = (y - 7)/4
         w = s < 1 ? 2*(1 - 2*s*s)*exp(-z*z) : "NaN"
         print x*1e-3, y*1e-3, s < 1 ? 0 : "NaN", s < 1 ? w*1e-3 : "NaN", s < 1 ? 0 : "NaN" } }' > "$scratch/map.dat"
-awk -v instant=TDC -v nozzle=0 -v above=6e-3 -v dxGrid=0.25e-3 -v profile="$scratch/profile.dat" \
+awk -v instant=TDC -v nozzle=1e-3 -v above=6e-3 -v dxGrid=0.25e-3 -v profile="$scratch/profile.dat" \
     -f validation/awk/map.awk "$scratch/map.dat" > "$scratch/map"
 awk '{ q[$1] = $2 } function near(name, v, d) { if ((q[name] - v)^2 > d*d) { print "  " name, q[name]; bad = 1 } }
     END { near("TDC.peak", 2, 1e-4); near("TDC.peakHeight", 6, 1e-4); near("TDC.ringHeight", 6, 1e-4)
