@@ -116,7 +116,8 @@ std::unique_ptr<Function1> Function1::New(const word& key, const dictionary& dic
 
     List<token> tokens = dict.tokenList(key);
     scalar v;
-    if ((!tokens.empty() && readNumber(tokens[0].text, v)) || (!tokens.empty() && tokens[0].is('[')))
+    if ((!tokens.empty() && readNumber(tokens[0].text, v)) ||
+        (!tokens.empty() && tokens[0].is('[')))
         return std::make_unique<constant>(dict.get<scalar>(key));
     const word type = tokens.empty() ? "" : tokens[0].text;
     if (!tokens.empty()) tokens.erase(tokens.begin());

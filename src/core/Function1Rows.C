@@ -119,10 +119,11 @@ public:
             if (left-- > 0) header_ = split(line);
             else
             {
+                const size_t first = column("refColumn", refColumn);
+                const size_t second = column("componentColumns", values[0]);
                 const List<word> cells = split(line);
-                const scalar t = cell(cells, column("refColumn", refColumn));
-                const scalar v = cell(cells, column("componentColumns", values[0]));
-                rows.push_back({t, scale * v, here()});
+                const scalar t = cell(cells, first);
+                rows.push_back({t, scale * cell(cells, second), here()});
             }
         }
         return rows;

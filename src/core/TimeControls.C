@@ -17,14 +17,20 @@ namespace
 
 constexpr scalar never = std::numeric_limits<scalar>::infinity();
 
-// Half a unit of the last digit of a folder name such as 0.125 or 1.5e-05
-scalar resolution(const word& name)
+word formattedTime(const char* form, int precision, scalar t)
 {
-    const size_t e = name.find_first_of("eE"), dot = name.find('.');
-    const int exponent = e == word::npos ? 0 : std::stoi(name.substr(e + 1));
-    const size_t end = std::min(e, name.size());
-    const int decimals = dot == word::npos ? 0 : int(end - dot) - 1;
-    return 0.5001 * std::pow(10.0, exponent - decimals);
+    char text[64];
+    std::snprintf(text, sizeof text, form, precision, t);
+    return text;
+}
+
+// Is `name` a way of writing t, with whatever timeFormat and timePrecision it was written
+bool isNameOf(const word& name, scalar t)
+{
+    for (int precision = 3; precision <= 17; ++precision)
+        for (const char* form : {"%.*g", "%.*f", "%.*e"})
+            if (formattedTime(form, precision, t) == name) return true;
+    return false;
 }
 
 }  // namespace
@@ -126,7 +132,7 @@ void Time::readState()
     const dictionary d = dictionary::fromFileIfPresent(case_ + "/" + folder + "/uniform/time");
     if (d.empty()) return;
     const scalar exact = d.get<scalar>("value");
-    if (std::abs(exact - value_) > resolution(folder))
+    if (folder != timeName(exact) && !isNameOf(folder, exact))
     {
         warning(d.path() + " speaks of time " + str(exact, 10) +
                 ", its folder of another: the folder's name is believed.");
@@ -151,10 +157,8 @@ void Time::writeState() const
 word Time::timeName(scalar t) const
 {
     if (t == 0) t = 0;  // no "-0"
-    char text[64];
     const char* form = format_ == "fixed" ? "%.*f" : format_ == "scientific" ? "%.*e" : "%.*g";
-    std::snprintf(text, sizeof text, form, precision_, t);
-    return text;
+    return formattedTime(form, precision_, t);
 }
 
 }  // namespace ispf

@@ -19,18 +19,18 @@ word canonical(const word& path)
     return error ? path : p.string();
 }
 
+bool isOneOf(const List<word>& words, const word& w)
+{
+    return std::find(words.begin(), words.end(), w) != words.end();
+}
+
+const List<word> includes = {"include", "includeEtc", "includeIfPresent", "sinclude"};
+
 }  // namespace
 
 void dictionaryParser::parseDirective(const token& name, source& in)
 {
-    static const List<word> includes = {"include", "includeEtc", "includeIfPresent", "sinclude"};
-    static const List<word> planned = {"calc", "eval",  "if",         "ifeq",
-                                       "else", "endif", "includeFunc"};
-    const auto isOneOf = [&](const List<word>& words) {
-        return std::find(words.begin(), words.end(), name.text) != words.end();
-    };
-
-    if (isOneOf(includes))
+    if (isOneOf(includes, name.text))
     {
         const token file = in.take();
         if (file.kind != token::quoted && file.kind != token::plain)
@@ -40,15 +40,24 @@ void dictionaryParser::parseDirective(const token& name, source& in)
     }
     if (name.text == "remove") return removeEntries(in);
     if (name.text == "inputMode") return setInputMode(in);
+    refuseDirective(name, false);
+}
+
+void dictionaryParser::refuseDirective(const token& name, bool insideValue) const
+{
+    static const List<word> planned = {"calc", "eval",  "if",         "ifeq",
+                                       "else", "endif", "includeFunc"};
     if (name.text == "codeStream")
         fail(
             "#codeStream is refused: a case file must not run compiled code. "
             "Write the value itself.",
             name);
-    if (isOneOf(planned))
-        fail("#" + name.text + " is not supported yet. Write the value itself.", name);
     List<word> valid = includes;
     valid.insert(valid.end(), {"remove", "inputMode"});
+    if (isOneOf(planned, name.text) || (insideValue && isOneOf(valid, name.text)))
+        fail("#" + name.text + (insideValue ? " inside a value" : "") +
+                 " is not supported yet. Write the value itself.",
+             name);
     fail("Unknown directive #" + name.text + ". " + validWords("directive", valid), name);
 }
 

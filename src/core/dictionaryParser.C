@@ -157,7 +157,7 @@ void dictionaryParser::parseValueTokens(const token& key, source& in, List<token
                  key);
         if (t.is('(') || t.is('[') || t.is('{')) open.push_back(t);
         if (t.kind == token::variable) appendMacro(t, value);
-        else if (t.kind == token::directive) parseDirective(t, in);
+        else if (t.kind == token::directive) refuseDirective(t, true);
         else value.push_back(t);
     }
 }

@@ -193,7 +193,7 @@ List<token> tokenize(const word& text, const word& fileName)
 
 bool readNumber(const word& text, scalar& value)
 {
-    const char* begin = text.c_str() + (text[0] == '+');
+    const char* begin = text.c_str() + (text[0] == '+' && text[1] != '-');
     const char* end = text.c_str() + text.size();
     const auto [p, error] = std::from_chars(begin, end, value);
     return error == std::errc() && p == end && std::isfinite(value);

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Time.H"
+#include "errorOf.H"
+#include "temporaryFolder.H"
+
+#include <csignal>
+#include <cmath>
+
+using namespace ispf;
+using doctest::Approx;
+
+namespace
+{
+
+struct testCase : temporaryFolder
+{
+    explicit testCase(const word& control) { write("system/controlDict", control); }
+    Time time() const { return Time(path); }
+};
+
+// Runs to the end with the steps that `dt` asks for; the times at which to write
+struct record
+{
+    List<scalar> written, steps;
+    scalar last = 0;
+};
+
+record runThrough(Time& t, const std::function<scalar(scalar)>& dt = nullptr)
+{
+    record r;
+    while (t.run() && r.steps.size() < 10000)
+    {
+        if (dt) t.setDeltaT(dt(t.value()));
+        const scalar before = t.value();
+        ++t;
+        r.steps.push_back(t.value() - before);
+        if (t.writeTime()) r.written.push_back(t.value());
+    }
+    r.last = t.value();
+    return r;
+}
+
+}  // namespace
+
+TEST_CASE("a fixed step is left alone and ends nearest to endTime")
+{
+    const testCase c("deltaT 0.03; endTime 1; writeControl timeStep; writeInterval 10;");
+    Time t = c.time();
+    const record r = runThrough(t);
+    CHECK(t.timeIndex() == 33);
+    CHECK(r.last == Approx(0.99));
+    CHECK(r.written.size() == 3);
+    CHECK(r.written[0] == Approx(0.3));
+    CHECK(t.deltaT() == 0.03);
+}
+
+TEST_CASE("adjustableRunTime: instants are hit exactly, and no step is tiny")
+{
+    const testCase c(
+        "deltaT 0.1; endTime 1; writeControl adjustableRunTime; writeInterval 0.25;"
+        "writeTimes (0.3 0.61803);");
+    Time t = c.time();
+    // An irregular wish, changing by 30 % and never a divisor of the interval
+    const auto wish = [](scalar now) { return 0.017 * (1 + 0.3 * std::sin(40 * now)); };
+    const record r = runThrough(t, wish);
+    CHECK(r.written == List<scalar>{0.25, 0.3, 0.5, 0.61803, 0.75, 1});
+    CHECK(r.last == 1);
+    scalar now = 0;
+    for (const scalar s : r.steps)
+    {
+        CHECK(s <= wish(now) * 1.000001);
+        CHECK(s > 0.4 * wish(now));
+        now += s;
+    }
+}
+
+TEST_CASE("many small steps far from zero still land on the instants")
+{
+    const testCase c(
+        "startFrom startTime; startTime 1000; deltaT 1e-6; endTime 1000.001;"
+        "writeControl adjustableRunTime; writeInterval 1e-4; timePrecision 12;");
+    Time t = c.time();
+    const record r = runThrough(t, [](scalar) { return 1.03e-6; });
+    CHECK(r.written.size() == 10);
+    CHECK(r.last == 1000.001);
+    for (const scalar s : r.steps) CHECK(s > 0.5e-6);
+}
+
+TEST_CASE("runTime writes at the first step past an instant; maxDeltaT limits")
+{
+    const testCase c(
+        "deltaT 0.04; maxDeltaT 0.03; endTime 0.3; writeControl runTime;"
+        "writeInterval 0.1;");
+    Time t = c.time();
+    CHECK(t.deltaT() == 0.03);
+    const record r = runThrough(t, [](scalar) { return 0.04; });
+    REQUIRE(r.written.size() == 3);
+    CHECK(r.written[0] == Approx(0.12));
+    CHECK(r.written[1] == Approx(0.21));
+    CHECK(r.written[2] == 0.3);
+}
+
+TEST_CASE("clockTime and none")
+{
+    const testCase c("deltaT 1; endTime 5; writeControl clockTime; writeInterval 1e-9;");
+    Time t = c.time();
+    CHECK(runThrough(t).written.size() == 5);
+    const testCase rare("deltaT 1; endTime 5; writeControl cpuTime; writeInterval 1e6;");
+    Time u = rare.time();
+    CHECK(runThrough(u).written.empty());
+    const testCase none("deltaT 1; endTime 5; writeControl none; writeTimes (2);");
+    Time v = none.time();
+    CHECK(runThrough(v).written == List<scalar>{2});
+}
+
+TEST_CASE("a rejected step leaves no trace")
+{
+    const testCase c("deltaT 0.1; endTime 1; writeControl adjustableRunTime; writeInterval 0.5;");
+    Time t = c.time();
+    List<scalar> written;
+    bool rejected = false;
+    while (t.run())
+    {
+        t.setDeltaT(0.1);
+        const scalar before = t.value();
+        const label index = t.timeIndex();
+        ++t;
+        if (t.value() == 0.5 && !rejected)
+        {
+            rejected = true;
+            t.rewind(before, index);
+            CHECK(t.value() == before);
+            t.setDeltaT(0.03);
+            ++t;
+        }
+        if (t.writeTime()) written.push_back(t.value());
+    }
+    CHECK(written == List<scalar>{0.5, 1});
+    CHECK(t.timeIndex() == 11);  // 4 of 0.1, 0.025, 0.075, 5 of 0.1
+}
+
+TEST_CASE("a continued run takes the steps of an uninterrupted one, bit by bit")
+{
+    const word control =
+        "deltaT 0.013; adjustTimeStep on; writeControl adjustableRunTime;"
+        "writeInterval 0.1; startFrom latestTime; endTime ";
+    const auto wish = [](scalar now) { return 0.013 * (1 + 0.2 * std::sin(9 * now)); };
+    const testCase whole(control + "0.7;"), parts(control + "0.7; stopAt nextWrite;");
+    Time t = whole.time();
+    const record r = runThrough(t, wish);
+    List<scalar> steps;
+    for (int k = 0; k < 7; ++k)
+    {
+        Time u = parts.time();
+        const record part = runThrough(u, wish);
+        steps.insert(steps.end(), part.steps.begin(), part.steps.end());
+        u.writeState();
+    }
+    CHECK(steps == r.steps);
+    Time end = parts.time();
+    CHECK(end.value() == t.value());
+    CHECK(end.timeIndex() == t.timeIndex());
+    CHECK(end.deltaT() == t.deltaT());
+    CHECK(!end.run());
+}
+
+TEST_CASE("startFrom: only folders that hold a state count as latest")
+{
+    const word control = "deltaT 1; endTime 9; writeControl none; startTime 0.5; startFrom ";
+    const testCase c(control + "latestTime;");
+    CHECK(c.time().value() == 0.5);
+    c.write("0/U", "x");
+    c.write("2/particles.hdf", "x");
+    c.write("10/uniform/other", "x");
+    c.write("1.5/uniform/time", "value 1.6; index 3; deltaT 0.1;");
+    CHECK(c.time().value() == 2);
+    CHECK(c.time().times() == List<scalar>{0, 1.5, 2, 10});
+    std::filesystem::remove_all(c.path + "/2");
+    CHECK(c.time().value() == 1.5);  // uniform/time contradicts the folder's name
+    c.write("0.333333/uniform/time", "value 0.33333333333333331; index 3; deltaT 0.1;");
+    std::filesystem::remove_all(c.path + "/1.5");
+    CHECK(c.time().value() == 1.0 / 3);
+    CHECK(c.time().timeIndex() == 3);
+    CHECK(c.time().deltaT() == 1);  // adjustTimeStep is off
+    c.write("system/controlDict", control + "firstTime;");
+    CHECK(c.time().value() == 0);
+    c.write("system/controlDict", control + "startTime;");
+    CHECK(c.time().value() == 0.5);
+}
+
+TEST_CASE("stopAt, and changes to controlDict while running")
+{
+    const word control =
+        "deltaT 1; endTime 9; writeControl timeStep; writeInterval 3;"
+        "runTimeModifiable yes; stopAt ";
+    const auto changed = [&](const word& stopAt) {
+        const testCase c(control + "endTime;");
+        Time t = c.time();
+        ++t;
+        CHECK(t.run());
+        c.write("system/controlDict", control + stopAt + ";");
+        return runThrough(t);
+    };
+    CHECK(changed("writeNow").written == List<scalar>{2});
+    CHECK(changed("noWriteNow").written.empty());
+    CHECK(changed("noWriteNow").last == 2);
+    CHECK(changed("nextWrite").written == List<scalar>{3});
+    CHECK(changed("endTime; endTime 5").last == 5);
+    CHECK(changed("endTime; deltaT").last == 9);  // a broken file is not used
+}
+
+TEST_CASE("requestStop ends the step, with or without writing")
+{
+    const testCase c("deltaT 1; endTime 9; writeControl none;");
+    for (const bool write : {true, false})
+    {
+        Time t = c.time();
+        ++t;
+        t.requestStop(write);
+        CHECK(t.writeTime() == write);
+        CHECK(!t.run());
+    }
+    Time late = c.time();  // asked for after the decision to write: one more step, then written
+    ++late;
+    CHECK(!late.writeTime());
+    late.requestStop(true);
+    CHECK(late.run());
+    ++late;
+    CHECK(late.writeTime());
+    CHECK(!late.run());
+}
+
+TEST_CASE("purgeWrite keeps the last few")
+{
+    const testCase c("deltaT 1; endTime 5; writeControl timeStep; writeInterval 1; purgeWrite 2;");
+    Time t = c.time();
+    List<word> removed;
+    while (t.run())
+    {
+        ++t;
+        for (const word& name : t.toPurge()) removed.push_back(name);
+    }
+    CHECK(removed == List<word>{"1", "2", "3"});
+}
+
+TEST_CASE("folder names")
+{
+    const testCase c("deltaT 1e-9; endTime 1; writeControl none; timePrecision 3;");
+    CHECK(c.time().timeName(0.125) == "0.125");
+    CHECK(c.time().timeName(-0.0) == "0");
+    CHECK(c.time().timeName(1.23456) == "1.23");
+    Time t = c.time();
+    t.rewind(0.5, 0);
+    ++t;  // would be called 0.5 again
+    CHECK(t.timeName() == "0.500000001");
+    const testCase f("deltaT 1; endTime 1; writeControl none; timeFormat fixed; timePrecision 4;");
+    CHECK(f.time().timeName(0.5) == "0.5000");
+}
+
+TEST_CASE("mistakes in controlDict")
+{
+    const auto with = [](const word& text) { return testCase(text).time(); };
+    CHECK_ERROR(with("deltaT 0; endTime 1; writeControl none;"), "must lie between", 1);
+    CHECK_ERROR(with("deltaT 1; writeControl none;"), "'endTime' is missing", 0);
+    CHECK_ERROR(with("deltaT 1; endTime 1; writeControl runtime; writeInterval 1;"),
+                "Did you mean 'runTime'?", 1);
+    CHECK_ERROR(with("deltaT 1; endTime 1;\nwriteControl timeStep; writeInterval 0.5;"),
+                "whole number", 2);
+    CHECK_ERROR(with("deltaT 1; endTime 1; writeControl runTime;"), "'writeInterval' is missing",
+                0);
+    const testCase c("deltaT 1; endTime 1; writeControl none;");
+    Time t = c.time();
+    CHECK_ERROR(t.setDeltaT(NAN), "must be positive", 0);
+}
+
+// Last, because the flag is for the whole program
+TEST_CASE("a signal: the step is finished, written, and the run ends")
+{
+    const testCase c("deltaT 1; endTime 9; writeControl none;");
+    Time t = c.time();
+    Time::stopOnSignals();
+    ++t;
+    CHECK(!t.writeTime());
+    ++t;
+    CHECK(t.run());
+    std::raise(SIGTERM);
+    CHECK(t.run());  // not before the state is written
+    CHECK(t.writeTime());
+    CHECK(!t.run());
+    std::signal(SIGINT, SIG_DFL);
+}
