@@ -19,7 +19,7 @@ USES_boundary        := particles geometry fileFormats
 USES_fileFormats     := core
 USES_operators       := particles linearSolvers
 USES_models          := operators
-USES_coupling        := models boundary
+USES_coupling        := models boundary fileFormats
 USES_functionObjects := models boundary fileFormats
 
 # Programs: one folder each, all its *.C.  They see every library; packages beyond the common ones:

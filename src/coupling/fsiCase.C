@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fsiCase.H"
+
+#include "cloudIO.H"
+
+#include <cmath>
+#include <filesystem>
+
+namespace ispf
+{
+
+fsiCase::fsiCase(Time& t) : time(t)
+{
+    schemes = dictionary::fromFile(time.systemFile("sphSchemes"));
+    solution = dictionary::fromFile(time.systemFile("sphSolution"));
+    readCloud(time, cloud);
+    readProperties();
+    readKernel();
+    walls = std::make_unique<boundary>(
+        caseFolder(), dictionary::fromFileIfPresent(time.constantFile("boundary")), cloud,
+        kernel->support());
+    readStructure();
+    coupling = solution.chooseOrDefault("coupling", {"projection", "monolithic"},
+                                        structure ? "monolithic" : "projection");
+}
+
+void fsiCase::readProperties()
+{
+    physical = dictionary::fromFile(time.constantFile("physicalProperties"));
+    rho = physical.getInRange("rho", 1e-30, 1e30);
+    const bool hasMu = physical.found("mu"), hasNu = physical.found("nu");
+    if (hasMu == hasNu)
+        throw fatalError("constant/physicalProperties wants exactly one of mu [Pa s] and nu [m2/s]",
+                         physical.where(hasMu ? "mu" : "rho"));
+    mu = hasMu ? physical.getInRange("mu", 0, 1e30) : rho * physical.getInRange("nu", 0, 1e30);
+    // one incompressible system for all zones: a second density has no place in it
+    const dictionary zoneRho = physical.subOrEmptyDict("zoneDensities");
+    for (const word& zone : zoneRho.keys())
+    {
+        cloud.zoneIndex(zone);
+        if (const scalar r = zoneRho.get<scalar>(zone); std::abs(r - rho) > 1e-3 * rho)
+            zoneRho.fail(zone, "Zone " + zone + " has density " + str(r) + ", the fluid " + str(rho) +
+                                   ": one incompressible system solves fluid and solid together, so "
+                                   "their densities must be equal");
+    }
+    readBodyForce();
+}
+
+void fsiCase::readBodyForce()
+{
+    const dictionary g = dictionary::fromFileIfPresent(time.constantFile("g"));
+    const dictionary perZone = physical.subOrEmptyDict("bodyForce");
+    if (g.empty() && perZone.empty()) return;
+    bodyForce.assign(cloud.zones.size(), g.empty() ? vector(0, 0, 0) : g.get<vector>("value"));
+    for (const word& zone : perZone.keys())
+        bodyForce[cloud.zoneIndex(zone)] += perZone.get<vector>(zone);
+}
+
+void fsiCase::readKernel()
+{
+    // 3D projection: what the paper's numbers imply, h = dx; else Wendland C2 at h = 1.3 dx
+    const bool paper = cloud.nDims == 3 && solution.getOrDefault<word>("coupling", "") == "projection";
+    const word name = schemes.chooseOrDefault("kernel", smoothingKernel::valid(),
+                                              paper ? "cubic" : "WendlandC2");
+    const scalar hByDx = schemes.getInRangeOrDefault("hByDx", 0.5, 4, paper ? 1.0 : 1.3);
+    if (name.rfind("Wendland", 0) == 0 && hByDx < 1.05)
+        warning("kernel " + name + " with hByDx " + str(hByDx) +
+                ": this pair is known to blow up; use hByDx 1.3, or the cubic kernel");
+    kernel = smoothingKernel::New(name, cloud.nDims, hByDx * cloud.dx);
+}
+
+void fsiCase::readStructure()
+{
+    const dictionary properties =
+        dictionary::fromFileIfPresent(time.constantFile("structureProperties"));
+    if (properties.empty())
+    {
+        if (cloud.nSolid() > 0)
+            throw fatalError("The particles hold " + std::to_string(cloud.nSolid()) +
+                             " solid ones, but there is no constant/structureProperties that says "
+                             "how they resist");
+        return;
+    }
+    structureReference ref;
+    ref.nDims = cloud.nDims, ref.dx = cloud.dx, ref.h = kernel->h();
+    ref.support = kernel->support(), ref.rho = rho;
+    const List<vec4>& rest = cloud.vectors.at("x0");
+    for (label i = 0; i < cloud.nSolid(); ++i)
+        ref.x0.push_back(rest[i].xyz()), ref.fixed.push_back(cloud.uFixed[i]);
+    for (const structureImage& image : walls->images()) ref.images.push_back({image.R, image.t});
+    structure = structureModel::New(properties, ref);
+}
+
+void fsiCase::updateNeighbours(scalar t0, scalar t1)
+{
+    walls->setStep(t0, t1);
+    walls->setFlags(cloud);
+    cloud.sortFluid(kernel->support());
+    walls->updateGhosts(cloud);
+    list.build(cloud, *kernel, walls->visible(cloud));
+    correction.build(cloud, list);
+}
+
+void fsiCase::write() { writeCloud(time, cloud, *walls); }
+
+}  // namespace ispf

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "monolithicSystem.H"
+
+namespace ispf
+{
+
+void monolithicSystem::setup(scalar dt, const solidSurface& surface, const blockMatrix3* K)
+{
+    const particleCloud& cloud = c_.cloud;
+    dt_ = dt, K_ = K;
+    rows_.setup(cloud, c_.list, c_.correction);
+    rows_.setLoads(surface.start, surface.c);
+    const scalar inertia = c_.rho * cloud.volume() / dt;
+    diagonal_.resize(cloud.n()), tau_.resize(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        diagonal_[i] = inertia - viscousFactor() * rows_.sumF()[i];
+        if (K && i < cloud.nSolid()) diagonal_[i] += dt * K->diagonal[i].trace() / cloud.nDims;
+        tau_[i] = cloud.volume() / diagonal_[i];
+    }
+    rows_.setTau(tau_);
+}
+
+void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce,
+                                     const List<scalar>& q, List<scalar>& b) const
+{
+    const particleCloud& cloud = c_.cloud;
+    const scalar mass = c_.rho * cloud.volume();
+    // u = 0, p = theta p^n with the boundary's values: what the rows give now belongs on the right
+    phi_.resize(cloud.nAll());
+    for (label i = 0; i < cloud.n(); ++i) phi_[i].s = simd4{0, 0, 0, theta * cloud.Up[i][3]};
+    cloud.fillGhosts(phi_, false);
+    rows_.firstPass(phi_, gp_, lap_, gs_);
+    cloud.fillGradientGhosts(gs_);
+    rows_.secondPass(gs_, cp_);
+
+    b.resize(size());
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        vector m = mass / dt_ * cloud.Up[i].xyz() - viscousFactor() * lap_[i].xyz();
+        if (!c_.bodyForce.empty()) m += mass * c_.bodyForce[cloud.zone[i]];
+        if (i < label(springForce.size())) m += springForce[i].xyz();
+        for (int a = 0; a < 3; ++a) b[4 * i + a] = cloud.uFixed[i] ? 0 : m[a] / diagonal_[i];
+        b[4 * i + 3] = cloud.pFixed[i] ? cloud.pGiven[i] : cloud.dx * (q[i] - gp_[i][3] - cp_[i]);
+    }
+}
+
+void monolithicSystem::apply(const List<scalar>& x, List<scalar>& y) const
+{
+    const particleCloud& cloud = c_.cloud;
+    const scalar inertia = c_.rho * cloud.volume() / dt_, V = cloud.volume();
+    const label n = cloud.n(), nSolid = cloud.nSolid();
+    phi_.resize(cloud.nAll());
+    std::copy(x.begin(), x.end(), reinterpret_cast<scalar*>(phi_.data()));
+    cloud.fillGhosts(phi_, true);
+    rows_.firstPass(phi_, gp_, lap_, gs_);
+    cloud.fillGradientGhosts(gs_);
+    rows_.secondPass(gs_, cp_);
+    if (K_) K_->multiply(phi_, Ku_);
+
+    y.resize(size());
+    parallelFor(n,
+                [&](label begin, label end)
+                {
+                    for (label i = begin; i < end; ++i)
+                    {
+                        simd4 m = inertia * phi_[i].s + viscousFactor() * lap_[i].s + V * gp_[i].s;
+                        if (K_ && i < nSolid) m += dt_ * Ku_[i].s;
+                        m /= diagonal_[i];
+                        if (cloud.uFixed[i]) m = phi_[i].s;
+                        for (int a = 0; a < 3; ++a) y[4 * i + a] = m[a];
+                        y[4 * i + 3] = cloud.pFixed[i] ? phi_[i].s[3]
+                                                       : cloud.dx * (gp_[i].s[3] - cp_[i]);
+                    }
+                });
+}
+
+}  // namespace ispf
