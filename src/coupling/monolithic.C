@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// coupling monolithic; see monolithicSystem.H.  Entries of sphSolution:
+//
+//     monolithic
+//     {
+//         tolerance   1e-4;     // of the step's initial residual
+//         absTolerance 1e-6;    // times the velocity scale, per particle: a floor for warm starts
+//         maxIter     150;
+//         theta       0.95;     // memory of the pressure stabiliser
+//         volumeFeedback 0.1;   // relaxes J - 1 of the solid, per step
+//         shifting    0.04;     // Xu's constant; 0: none
+//         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
+//     }
+#include "couplingScheme.H"
+#include "FGMRES.H"
+#include "monolithicPreconditioner.H"
+#include "particleShifting.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+class monolithic : public couplingScheme
+{
+public:
+    explicit monolithic(fsiCase& c)
+        : c_(c),
+          dict_(c.solution.subOrEmptyDict("monolithic")),
+          system_(c),
+          preconditioner_(system_, dict_),
+          theta_(dict_.getInRangeOrDefault("theta", 0, 1, 0.95)),
+          alpha_(dict_.getInRangeOrDefault("volumeFeedback", 0, 1, 0.1)),
+          tolerance_(dict_.getInRangeOrDefault("tolerance", 1e-14, 1, 1e-4)),
+          absTolerance_(dict_.getInRangeOrDefault("absTolerance", 0, 1, 1e-6)),
+          maxIter_(dict_.getOrDefault<label>("maxIter", 150)),
+          shifting_(c.solution.subOrEmptyDict("shifting"))
+    {
+    }
+
+    stepLimit limit() const override;
+    void step(scalar t, scalar dt) override;
+
+private:
+    void structureState();
+    void solve(scalar dt, List<scalar>& z);
+    scalar velocityScale() const;
+
+    fsiCase& c_;
+    dictionary dict_;
+    monolithicSystem system_;
+    monolithicPreconditioner preconditioner_;
+    scalar theta_, alpha_, tolerance_, absTolerance_;
+    label maxIter_;
+    particleShifting shifting_;
+
+    solidSurface surface_;
+    List<tensor> F_;
+    List<vec4> springForce_;
+    blockMatrix3 K_;
+};
+
+scalar monolithic::velocityScale() const
+{
+    const particleCloud& cloud = c_.cloud;
+    const scalar u = maxOf(cloud.n(),
+                           [&](label b, label e)
+                           {
+                               scalar most = 0;
+                               for (label i = b; i < e; ++i)
+                                   most = std::max(most, cloud.Up[i].xyz().norm());
+                               return most;
+                           });
+    return std::max({u, c_.walls->maxWallSpeed(), scalar(0)});
+}
+
+// No limit of stability: the fluid's motion per step alone, for accuracy
+couplingScheme::stepLimit monolithic::limit() const
+{
+    const scalar u = velocityScale();
+    return {u > 0 ? 0.4 * c_.kernel->h() / u : 1e30, "CFL"};
+}
+
+void monolithic::structureState()
+{
+    if (!c_.structure) return;
+    c_.structure->deformationGradient(c_.cloud.x, F_);
+    c_.structure->force(c_.cloud.x, springForce_);
+    c_.structure->assembleTangent(c_.cloud.x, tangentKind::positive, K_);
+    surface_.initialise(c_.cloud, c_.list, F_);
+    surface_.loads(c_.cloud, c_.list, *c_.kernel, F_);
+}
+
+void monolithic::solve(scalar dt, List<scalar>& z)
+{
+    const particleCloud& cloud = c_.cloud;
+    List<scalar> q(cloud.n(), 0), b;
+    for (label i = 0; i < cloud.nSolid(); ++i) q[i] = -alpha_ * (F_[i].determinant() - 1) / dt;
+    system_.setup(dt, surface_, c_.structure ? &K_ : nullptr);
+    preconditioner_.setup();
+    system_.rightHandSide(theta_, springForce_, q, b);
+
+    z.resize(4 * cloud.n());
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        for (int a = 0; a < 3; ++a) z[4 * i + a] = cloud.uFixed[i] ? 0 : cloud.Up[i][a];
+        z[4 * i + 3] = cloud.pFixed[i] ? cloud.pGiven[i] : cloud.Up[i][3];
+    }
+    solverControls controls;
+    controls.tolerance = 0, controls.relTol = tolerance_, controls.maxIter = maxIter_;
+    controls.absTol = absTolerance_ * std::sqrt(scalar(cloud.n())) * velocityScale();
+    FGMRES solver(controls, "Up", maxIter_);
+    const solverPerformance result = solver.solve(system_, preconditioner_, b, z);
+    result.print();
+    if (!result.converged && !(result.finalResidual < 0.05 * result.initialResidual))
+        throw fatalError("The coupled system did not converge: " + result.line() +
+                         "; halve deltaT, raise monolithic.maxIter, or look at checkParticles");
+}
+
+void monolithic::step(scalar t, scalar dt)
+{
+    particleCloud& cloud = c_.cloud;
+    c_.updateNeighbours(t, t + dt);
+    structureState();
+    List<scalar> z;
+    solve(dt, z);
+    for (label i = 0; i < cloud.n(); ++i)
+        if (!std::isfinite(z[4 * i] + z[4 * i + 1] + z[4 * i + 2] + z[4 * i + 3]))
+            throw fatalError("Particle " + std::to_string(cloud.id[i]) + " at time " + str(t + dt) +
+                             " s: the solution is not finite");
+    for (label i = 0; i < cloud.n(); ++i)
+        cloud.Up[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], z[4 * i + 3]};
+
+    // Shift first, with the neighbours at hand, then move: x^{n+1} = x^n + dt u^{n+1}
+    cloud.fillGhosts(cloud.Up, false);
+    shifting_.shift(cloud, c_.list, c_.correction, dt,
+                    [&](const vector& x) { return c_.walls->nearOpen(x); });
+    for (label i = 0; i < cloud.n(); ++i)
+        cloud.x[i].s += dt * simd4{cloud.Up[i][0], cloud.Up[i][1], cloud.Up[i][2], 0};
+    c_.walls->exchange(cloud, t + dt);
+}
+
+}  // namespace
+
+std::unique_ptr<couplingScheme> newMonolithic(fsiCase& c) { return std::make_unique<monolithic>(c); }
+
+}  // namespace ispf

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "monolithicPreconditioner.H"
+
+namespace ispf
+{
+
+monolithicPreconditioner::monolithicPreconditioner(const monolithicSystem& system,
+                                                   const dictionary& dict)
+    : system_(system),
+      options_(multigridOptions::fromDict(dict.subOrEmptyDict("multigrid"))),
+      beta_(dict.getInRangeOrDefault("beta", 0, 10, 1)),
+      solid_(dict.subOrEmptyDict("solid"))
+{
+}
+
+void monolithicPreconditioner::setup()
+{
+    const fsiCase& c = system_.fsi();
+    const particleCloud& cloud = c.cloud;
+    bulk_.assign(cloud.n(), c.mu);
+    if (c.structure)
+        for (label i = 0; i < cloud.nSolid(); ++i)
+            bulk_[i] += beta_ * c.structure->shearModulus() * system_.dt();
+    if (system_.tangent())
+        solid_.setup(*system_.tangent(), system_.dt(), system_.diagonal(), cloud);
+
+    buildLaplacian();
+    List<vector> position(cloud.n());
+    List<std::uint8_t> group(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i)
+        position[i] = cloud.x[i].xyz(), group[i] = std::uint8_t(cloud.phase[i]);
+    options_.cellSize = c.kernel->support();
+    multigrid_ = std::make_unique<cellMultigrid>(L_, position, options_, group);
+}
+
+void monolithicPreconditioner::buildLaplacian()
+{
+    const fsiCase& c = system_.fsi();
+    const particleCloud& cloud = c.cloud;
+    const label n = cloud.n();
+    const auto tau = [&](label i) { return cloud.isFluid(i) ? system_.dt() / c.rho : system_.tau()[i]; };
+
+    // Row i: sum_j -2 F_ij tau_ij (p_i - p_j), images folded into their source, rigid ones dropped
+    // (dp/dn = 0); rows of given pressure carry the diagonal alone.
+    const auto row = [&](label i, auto&& entry)
+    {
+        scalar d = 0;
+        if (cloud.pFixed[i]) return d;
+        for (std::int64_t k = c.list.start[i]; k < c.list.start[i + 1]; ++k)
+        {
+            label j = c.list.index[k];
+            if (j >= n) j = cloud.ghostSource(j);
+            if (j < 0 || j == i) continue;
+            const scalar a = -4 * c.list.F[k] * tau(i) * tau(j) / (tau(i) + tau(j));
+            d += a;
+            if (k < c.list.mid[i] && !cloud.pFixed[j]) entry(j, -a);
+        }
+        return d;
+    };
+    L_.rowStart.assign(n + 1, 0), L_.diagonal.resize(n);
+    parallelFor(n,
+                [&](label begin, label end)
+                {
+                    for (label i = begin; i < end; ++i)
+                        L_.diagonal[i] = row(i, [&](label, scalar) { ++L_.rowStart[i + 1]; });
+                });
+    for (label i = 0; i < n; ++i) L_.rowStart[i + 1] += L_.rowStart[i];
+    L_.column.resize(L_.rowStart[n]), L_.value.resize(L_.rowStart[n]);
+    parallelFor(n,
+                [&](label begin, label end)
+                {
+                    for (label i = begin; i < end; ++i)
+                    {
+                        label k = L_.rowStart[i];
+                        row(i, [&](label j, scalar a) { L_.column[k] = j, L_.value[k++] = a; });
+                    }
+                });
+    // rows without neighbours, or of given pressure: any positive diagonal of the right size
+    const scalar largest = *std::max_element(L_.diagonal.begin(), L_.diagonal.end());
+    for (scalar& d : L_.diagonal) d = d > 0 ? d * (1 + 1e-9) : largest;
+}
+
+// u = A^-1 r_u, r the scaled residual
+void monolithicPreconditioner::momentum(const List<scalar>& r, List<vec4>& u) const
+{
+    const particleCloud& cloud = system_.fsi().cloud;
+    const label n = cloud.n(), nSolid = cloud.nSolid();
+    const List<scalar>& A = system_.diagonal();
+    u.resize(cloud.nAll());
+    for (label i = 0; i < n; ++i) u[i].s = simd4{r[4 * i], r[4 * i + 1], r[4 * i + 2], 0};
+    if (system_.tangent()) solid_.solve(A, cloud, u);
+
+    cloud.fillGhosts(u, true);
+    system_.rows().viscousNeighbours(u, work_);
+    parallelFor(n - nSolid,
+                [&](label begin, label end)
+                {
+                    for (label i = nSolid + begin; i < nSolid + end; ++i)
+                    {
+                        u[i].s -= system_.viscousFactor() / A[i] * work_[i].s;
+                        u[i][3] = 0;
+                    }
+                });
+}
+
+void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) const
+{
+    const particleCloud& cloud = system_.fsi().cloud;
+    const label n = cloud.n();
+    momentum(r, u_);
+    cloud.fillGhosts(u_, true);
+    system_.rows().divergence(u_, div_);
+    b_.resize(n), s_.resize(n);
+    for (label i = 0; i < n; ++i)
+    {
+        div_[i] -= r[4 * i + 3] / cloud.dx;
+        b_[i] = cloud.pFixed[i] ? 0 : -div_[i];
+    }
+    multigrid_->apply(b_, s_);
+
+    phi_.resize(cloud.nAll());
+    for (label i = 0; i < n; ++i)
+        phi_[i].s = simd4{0, 0, 0, cloud.pFixed[i] ? r[4 * i + 3] : s_[i] - bulk_[i] * div_[i]};
+    cloud.fillGhosts(phi_, true);
+    system_.rows().pressureGradient(phi_, work_);
+    z.resize(4 * n);
+    for (label i = 0; i < n; ++i)
+    {
+        const scalar tau = cloud.uFixed[i] ? 0 : system_.tau()[i];
+        for (int a = 0; a < 3; ++a) z[4 * i + a] = u_[i][a] - tau * work_[i][a];
+        z[4 * i + 3] = phi_[i][3];
+    }
+}
+
+}  // namespace ispf

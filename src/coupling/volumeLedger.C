@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volumeLedger.H"
+
+#include <filesystem>
+#include <iomanip>
+
+namespace ispf
+{
+
+volumeLedger::volumeLedger(fsiCase& c) : c_(c)
+{
+    const dictionary dict = c.solution.subOrEmptyDict("volumeLedger");
+    if (!dict.empty())
+    {
+        cavity_ = std::make_unique<trackedSurface>(dict.get<word>("cavity"), c);
+        zone_ = c.cloud.zoneIndex(dict.get<word>("zone"));
+        relaxation_ = dict.getInRangeOrDefault("relaxation", 0, 1, 0);
+        cavity0_ = cavity_->restVolume();
+    }
+    wall0_ = wallVolume();
+    List<scalar>& state = c.history["volumeLedger"];  // survives a restart
+    if (state.size() == 3)
+        controlled_ = state[0], source_ = state[1], wall0_ = state[2];
+    else
+        state = {0, 0, wall0_};
+    c.source.assign(c.cloud.zones.size(), 0);
+    if (zone_ >= 0) c.source[zone_] = source_;
+
+    const word folder = c.caseFolder() + "/postProcessing/volumeLedger/" + c.time.timeName();
+    std::filesystem::create_directories(folder);
+    file_.open(folder + "/volumeLedger.dat");
+    if (!file_) throw fatalError("Cannot write " + folder + "/volumeLedger.dat");
+    file_ << "# Volumes of the whole body [m^3]; control: added by the control term\n"
+          << "# Time\tswept\tcavity\topenNet\twall\tcontrol\n";
+}
+
+scalar volumeLedger::swept() const
+{
+    scalar sum = 0;
+    for (const patchBalance& b : c_.walls->balance()) sum += b.swept;
+    return sum * c_.walls->symmetryFactor();
+}
+
+scalar volumeLedger::wallVolume() const
+{
+    if (!c_.structure) return 0;
+    List<tensor> F;
+    c_.structure->deformationGradient(c_.cloud.x, F);
+    scalar sum = 0;
+    for (const tensor& f : F) sum += f.determinant();
+    return sum * c_.cloud.volume() * c_.walls->symmetryFactor();
+}
+
+void volumeLedger::update(scalar dt)
+{
+    if (!cavity_) return;
+    cavity_->update(c_.cloud.x);
+    if (relaxation_ == 0) return;
+    // the source of the step now ending, then the next one: q = - r (V - V_target) / (V_fluid dt)
+    label n = 0;
+    for (label i = c_.cloud.nSolid(); i < c_.cloud.n(); ++i)
+        n += c_.cloud.zone[i] == zone_ && !c_.cloud.pFixed[i];
+    const scalar fluid = n * c_.cloud.volume() * c_.walls->symmetryFactor();
+    controlled_ += source_ * fluid * dt;
+    source_ = fluid > 0 ? -relaxation_ * (cavityChange() - swept()) / (fluid * dt) : 0;
+    c_.source[zone_] = source_;
+    c_.history["volumeLedger"] = {controlled_, source_, wall0_};
+}
+
+void volumeLedger::writeLine()
+{
+    scalar open = 0;
+    for (const patchBalance& b : c_.walls->balance()) open += b.created - b.deleted;
+    open *= c_.cloud.volume() * c_.walls->symmetryFactor();
+    file_ << std::scientific << std::setprecision(6) << std::setw(14) << std::left
+          << c_.time.timeName();
+    for (const scalar v : {swept(), cavityChange(), open, wallVolume() - wall0_, controlled_})
+        file_ << '\t' << v;
+    file_ << std::endl;
+    info() << "volume ledger: swept " << str(swept() * 1e9) << " mm3, cavity "
+           << str(cavityChange() * 1e9) << " mm3, wall " << str((wallVolume() - wall0_) * 1e9)
+           << " mm3, control " << str(controlled_ * 1e9) << " mm3\n";
+}
+
+}  // namespace ispf
