@@ -40,6 +40,7 @@ public:
           maxIter_(dict_.getOrDefault<label>("maxIter", 150)),
           shifting_(c.solution.subOrEmptyDict("shifting"))
     {
+        if (c.structure) K_ = c.structure->tangentPattern();
     }
 
     stepLimit limit() const override;
@@ -61,7 +62,7 @@ private:
     solidSurface surface_;
     List<tensor> F_;
     List<vec4> springForce_;
-    blockMatrix3 K_;
+    structureTangent K_;
 };
 
 scalar monolithic::velocityScale() const
@@ -99,6 +100,7 @@ void monolithic::solve(scalar dt, List<scalar>& z)
 {
     const particleCloud& cloud = c_.cloud;
     List<scalar> q(cloud.n(), 0), b;
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i) q[i] = c_.source.empty() ? 0 : c_.source[cloud.zone[i]];
     for (label i = 0; i < cloud.nSolid(); ++i) q[i] = -alpha_ * (F_[i].determinant() - 1) / dt;
     system_.setup(dt, surface_, c_.structure ? &K_ : nullptr);
     preconditioner_.setup();

@@ -7,7 +7,7 @@ namespace ispf
 monolithicPreconditioner::monolithicPreconditioner(const monolithicSystem& system,
                                                    const dictionary& dict)
     : system_(system),
-      options_(multigridOptions::fromDict(dict.subOrEmptyDict("multigrid"))),
+      options_(multigridOptions::fromDict(dict.subOrEmptyDict("multigrid"), 0)),
       beta_(dict.getInRangeOrDefault("beta", 0, 10, 1)),
       solid_(dict.subOrEmptyDict("solid"))
 {
@@ -22,7 +22,8 @@ void monolithicPreconditioner::setup()
         for (label i = 0; i < cloud.nSolid(); ++i)
             bulk_[i] += beta_ * c.structure->shearModulus() * system_.dt();
     if (system_.tangent())
-        solid_.setup(*system_.tangent(), system_.dt(), system_.diagonal(), cloud);
+        solid_.setup(*system_.tangent(), system_.dt(), system_.diagonal(), cloud,
+                     c.kernel->support());
 
     buildLaplacian();
     List<vector> position(cloud.n());

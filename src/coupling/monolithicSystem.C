@@ -11,11 +11,19 @@ void monolithicSystem::setup(scalar dt, const solidSurface& surface, const block
     rows_.setup(cloud, c_.list, c_.correction);
     rows_.setLoads(surface.start, surface.c);
     const scalar inertia = c_.rho * cloud.volume() / dt;
+    // clamped particles carry no tangent among themselves: they weigh as the mean free one does
+    scalar meanTangent = 0;
+    label nFree = 0;
+    for (label i = 0; K && i < cloud.nSolid(); ++i)
+        if (!cloud.uFixed[i]) meanTangent += K->diagonal[i].trace() / cloud.nDims, ++nFree;
+    if (nFree > 0) meanTangent /= nFree;
     diagonal_.resize(cloud.n()), tau_.resize(cloud.n());
     for (label i = 0; i < cloud.n(); ++i)
     {
         diagonal_[i] = inertia - viscousFactor() * rows_.sumF()[i];
-        if (K && i < cloud.nSolid()) diagonal_[i] += dt * K->diagonal[i].trace() / cloud.nDims;
+        if (K && i < cloud.nSolid())
+            diagonal_[i] +=
+                dt * (cloud.uFixed[i] ? meanTangent : K->diagonal[i].trace() / cloud.nDims);
         tau_[i] = cloud.volume() / diagonal_[i];
     }
     rows_.setTau(tau_);
@@ -56,7 +64,11 @@ void monolithicSystem::apply(const List<scalar>& x, List<scalar>& y) const
     rows_.firstPass(phi_, gp_, lap_, gs_);
     cloud.fillGradientGhosts(gs_);
     rows_.secondPass(gs_, cp_);
-    if (K_) K_->multiply(phi_, Ku_);
+    if (K_)
+    {
+        Ku_.resize(nSolid);
+        K_->apply(phi_, Ku_);
+    }
 
     y.resize(size());
     parallelFor(n,

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solidBlock.H"
+
+#include <algorithm>
+
+namespace ispf
+{
+
+solidBlock::solidBlock(const dictionary& dict)
+    : solver_(dict.chooseOrDefault("solver", {"direct", "multigrid"}, "direct")),
+      refactorInterval_(dict.getOrDefault<label>("refactorInterval", 10)),
+      options_(multigridOptions::fromDict(dict.subOrEmptyDict("multigrid"), 0))
+{
+}
+
+void solidBlock::setup(const blockMatrix3& K, scalar dt, const List<scalar>& A,
+                       const particleCloud& cloud, scalar cellSize)
+{
+    As_ = K;
+    for (label i = 0; i < K.size(); ++i)
+    {
+        // inertia and viscosity: what A_ii holds beside the tangent
+        const scalar rest = A[i] - dt * K.diagonal[i].trace() / cloud.nDims;
+        As_.diagonal[i] = dt * K.diagonal[i] + rest * tensor::Identity();
+        if (cloud.uFixed[i]) As_.diagonal[i] = A[i] * tensor::Identity();
+        for (label k = K.rowStart[i]; k < K.rowStart[i + 1]; ++k)
+            As_.value[k] = cloud.uFixed[i] || cloud.uFixed[K.column[k]] ? tensor(tensor::Zero())
+                                                                        : tensor(dt * K.value[k]);
+    }
+    if (solver_ == "direct")
+    {
+        if (age_ == 0) direct_.factorise(As_);
+        age_ = (age_ + 1) % std::max<label>(1, refactorInterval_);
+        return;
+    }
+    scalarBlock_ = As_.thirdOfTrace();
+    for (scalar& v : scalarBlock_.value) v = std::min(v, 0.0);
+    List<vector> x(K.size());
+    for (label i = 0; i < K.size(); ++i) x[i] = cloud.x[i].xyz();
+    options_.cellSize = cellSize;
+    multigrid_ = std::make_unique<cellMultigrid>(scalarBlock_, x, options_);
+}
+
+void solidBlock::solve(const List<scalar>& A, const particleCloud& cloud, List<vec4>& u) const
+{
+    const label n = As_.size();
+    r_.resize(n), z_.resize(n);
+    for (label i = 0; i < n; ++i)
+    {
+        r_[i].s = A[i] * u[i].s;
+        if (cloud.uFixed[i]) r_[i] = vec4{};
+        r_[i][3] = 0;
+    }
+    if (multigrid_)
+        multigrid_->applyBlock3(r_, z_);
+    else
+        direct_.apply(r_, z_);
+    for (label i = 0; i < n; ++i)
+        if (!cloud.uFixed[i]) u[i].s = simd4{z_[i][0], z_[i][1], z_[i][2], 0};
+}
+
+}  // namespace ispf
