@@ -87,7 +87,7 @@ void fsiCase::readStructure()
     const List<vec4>& rest = cloud.vectors.at("x0");
     for (label i = 0; i < cloud.nSolid(); ++i)
         ref.x0.push_back(rest[i].xyz()), ref.fixed.push_back(cloud.uFixed[i]);
-    for (const structureImage& image : walls->images()) ref.images.push_back({image.R, image.t});
+    for (const structureImage& m : walls->images()) ref.images.push_back({m.R, m.t});
     structure = structureModel::New(properties, ref);
 }
 
@@ -99,6 +99,21 @@ void fsiCase::updateNeighbours(scalar t0, scalar t1)
     walls->updateGhosts(cloud);
     list.build(cloud, *kernel, walls->visible(cloud));
     correction.build(cloud, list);
+}
+
+void fsiCase::report() const
+{
+    label nFluid = cloud.n() - cloud.nSolid();
+    info() << "particles: " << cloud.n() << " (" << nFluid << " fluid, " << cloud.nSolid()
+           << " solid), " << cloud.nDims << "D, dx = " << str(cloud.dx) << " m\n"
+           << "kernel: " << kernel->name() << ", h = " << str(kernel->h()) << " m, support "
+           << str(kernel->support() / cloud.dx) << " dx\n"
+           << "coupling: " << coupling << "\n"
+           << "fluid: rho = " << str(rho) << " kg/m3, mu = " << str(mu) << " Pa s\n"
+           << "structure: " << (structure ? structure->description() : "none") << "\n"
+           << "body force: " << (bodyForce.empty() ? "none" : "given") << "\n"
+           << "threads: " << nThreads() << "\n";
+    for (const dictionary* d : {&schemes, &solution, &physical}) d->checkAllRead();
 }
 
 void fsiCase::write() { writeCloud(time, cloud, *walls); }
