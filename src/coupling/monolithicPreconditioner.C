@@ -7,10 +7,12 @@ namespace ispf
 monolithicPreconditioner::monolithicPreconditioner(const monolithicSystem& system,
                                                    const dictionary& dict)
     : system_(system),
-      options_(multigridOptions::fromDict(dict.subOrEmptyDict("multigrid"), 0)),
       beta_(dict.getInRangeOrDefault("beta", 0, 10, 1)),
       solid_(dict.subOrEmptyDict("solid"))
 {
+    // One V-cycle is the cheapest that serves FGMRES
+    options_.cycle = "V", options_.omega = 1.2;
+    options_.read(dict.subOrEmptyDict("multigrid"));
 }
 
 void monolithicPreconditioner::setup()

@@ -8,9 +8,10 @@ namespace ispf
 
 solidBlock::solidBlock(const dictionary& dict)
     : solver_(dict.chooseOrDefault("solver", {"direct", "multigrid"}, "direct")),
-      refactorInterval_(dict.getOrDefault<label>("refactorInterval", 10)),
-      options_(multigridOptions::fromDict(dict.subOrEmptyDict("multigrid"), 0))
+      refactorInterval_(dict.getOrDefault<label>("refactorInterval", 10))
 {
+    options_.cycle = "V", options_.omega = 0.9;
+    options_.read(dict.subOrEmptyDict("multigrid"));
 }
 
 void solidBlock::setup(const blockMatrix3& K, scalar dt, const List<scalar>& A,
