@@ -33,7 +33,8 @@ PKG_TEST_generateParticles := -lgmsh
 
 # ---- flags ---------------------------------------------------------------------------------------
 CXX      ?= g++
-WARN     := -Wall -Wextra -Wno-psabi
+# -Wrestrict is wrong about word + word in g++ 12 (GCC bug 105651)
+WARN     := -Wall -Wextra -Wno-psabi -Wno-restrict
 FLAGS_Release  := -O3 -DNDEBUG
 FLAGS_Debug    := -O0 -g -D_GLIBCXX_ASSERTIONS
 FLAGS_Sanitize := -O1 -g -fsanitize=address,undefined -fno-omit-frame-pointer
