@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "messages.H"
 
+#include <unistd.h>
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -61,11 +62,18 @@ word placeText(const fileLocation& w)
     return text + ".";
 }
 
-int report(const word& text)
+// To stderr; and to the log as well where stderr is a terminal and stdout is not
+void complain(const word& text)
 {
+    if (::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO)) std::fputs(text.c_str(), stdout);
     std::fflush(stdout);
     std::fputs(text.c_str(), stderr);
     std::fflush(stderr);
+}
+
+int report(const word& text)
+{
+    complain(text);
     return 1;
 }
 
@@ -110,9 +118,9 @@ void warning(const word& text, int most)
     const std::lock_guard<std::mutex> lock(guard);
     const int n = ++count[text];
     if (n > most) return;
-    std::fflush(stdout);
-    std::fprintf(stderr, "--> FOAM Warning : %s\n", text.c_str());
-    if (n == most && most > 1) std::fputs("    (not repeated from here on)\n", stderr);
+    const bool last = n == most && most > 1;
+    complain("--> FOAM Warning : " + text + "\n" +
+             (last ? "    (not repeated from here on)\n" : ""));
 }
 
 int runMain(const std::function<int()>& body)

@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# bin/tools: RunFunctions and CleanFunctions
+set -uo pipefail
+tools=$(cd "$(dirname "$0")/../bin/tools" && pwd)
+failures=0
+fail() { echo "  FAILED: $1"; failures=$((failures+1)); }
+scratch=$(mktemp -d); trap 'rm -rf "$scratch"' EXIT
+mkdir -p "$scratch/bin" "$scratch/case/system" "$scratch/case/0.orig"
+cd "$scratch/case"
+printf 'application     goodOne;   // a comment\n' > system/controlDict
+echo U > 0.orig/U
+printf '#!/bin/sh\necho "hello $*"; echo "to stderr" >&2\n' > "$scratch/bin/goodOne"
+printf '#!/bin/sh\nseq 50\nprintf "\\n--> FOAM FATAL ERROR: \\nno more ideas\\n" >&2; exit 3\n' > "$scratch/bin/badOne"
+printf '#!/bin/sh\nseq 50; exit 1\n' > "$scratch/bin/muteOne"
+chmod +x "$scratch"/bin/*
+run() { # a script's text; its output goes to $scratch/out
+    printf '. %q/RunFunctions\n. %q/CleanFunctions\n%s\n' "$tools" "$tools" "$1" > "$scratch/Allrun"
+    ISPF_BIN=$scratch/bin bash "$scratch/Allrun" > "$scratch/out" 2>&1
+}
+says() { grep -q -- "$1" "$scratch/out" || fail "'$1' is not said: $(cat "$scratch/out")"; }
+
+run 'runApplication "$(getApplication)" -x "a b"; echo after' || fail "good program"
+says after
+[ "$(cat log.goodOne)" = $'hello -x a b\nto stderr' ] || fail "log: $(cat log.goodOne)"
+run 'runApplication goodOne 2; echo after' || fail "second run"
+says "has run already"; says after
+grep -q "hello 2" log.goodOne && fail "an existing log was touched"
+run 'runApplication -a goodOne 3; runApplication -s two goodOne 4' || fail "append and suffix"
+[ "$(grep -c hello log.goodOne)" = 2 ] && grep -q "hello 4" log.goodOne.two || fail "append or suffix"
+run 'runApplication -o goodOne 5' && [ "$(grep hello log.goodOne)" = "hello 5" ] || fail "overwrite"
+
+run 'runApplication badOne; echo after' && fail "a failure does not stop the script"
+says "badOne failed with status 3"; says "$scratch/case/log.badOne"; says "no more ideas"
+grep -qx "after\|50" "$scratch/out" && fail "more than the error, or the script went on"
+run 'runApplication muteOne' && fail "a silent failure does not stop the script"
+says 50; grep -qx 30 "$scratch/out" && fail "more than the last 20 lines"
+run 'runApplication noSuchProgram; echo after' && fail "a missing program does not stop the script"
+says "noSuchProgram is not built"
+
+run 'restore0Dir; touch 0/extra; restore0Dir' && [ "$(ls 0)" = U ] || fail "restore0Dir"
+mkdir -p 0.5 1e-05 10 constant 2D postProcessing/probes; touch dx.hdf.series
+run cleanTimeDirectories || fail cleanTimeDirectories
+[ "$(echo *)" = "0 0.orig 2D constant log.badOne log.goodOne log.goodOne.two log.muteOne postProcessing system" ] ||
+    fail "cleanTimeDirectories left: $(echo *)"
+run cleanCase || fail cleanCase
+[ "$(echo *)" = "0 0.orig 2D constant system" ] || fail "cleanCase left: $(echo *)"
+run cleanCase0 && [ ! -e 0 ] || fail cleanCase0
+mkdir "$scratch/elsewhere"; cd "$scratch/elsewhere"; mkdir 1; touch log.a
+run cleanCase0 && fail "cleaned a folder that is no case"
+[ "$(echo *)" = "1 log.a" ] || fail "removed from a folder that is no case"
+[ $failures = 0 ]
