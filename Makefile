@@ -8,13 +8,14 @@ OPT  ?= Release
 B    := build/$(OPT)
 
 # ---- the layers, lowest first -------------------------------------------------------------------
-LIBS := core geometry linearSolvers fileFormats particles boundary operators models coupling \
+LIBS := core geometry linearSolvers fileFormats particles placement boundary operators models coupling \
         functionObjects
 
 USES_core            :=
 USES_geometry        := core
 USES_linearSolvers   := core
 USES_particles       := core
+USES_placement       := particles geometry
 USES_boundary        := particles geometry fileFormats
 USES_fileFormats     := core
 USES_operators       := particles linearSolvers

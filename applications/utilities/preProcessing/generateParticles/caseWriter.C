@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "caseWriter.H"
+
+#include "particleTable.H"
+#include <filesystem>
+#include <numeric>
+
+namespace ispf
+{
+
+namespace
+{
+
+// In two dimensions surfaces are prisms of any height; a slice one dx high is enough
+triSurface forDisk(const triSurface& surface, const zoneGeometry& geometry)
+{
+    if (geometry.nDims() == 3) return surface;
+    const vector up = 0.5 * geometry.dx() * vector::UnitZ();
+    return clipped(clipped(surface, {up, vector::UnitZ()}), {-up, -vector::UnitZ()});
+}
+
+word phaseWord(const zoneInfo& zone)
+{
+    return zone.phase == phaseType::fluid ? "fluid" : zone.fixed ? "clamped" : "solid";
+}
+
+particleTable emptyTable(const zoneGeometry& geometry, const List<word>& sources)
+{
+    particleTable table;
+    table.setAttribute("time", 0);
+    table.setAttribute("dx", geometry.dx());
+    table.setAttribute("nDims", geometry.nDims());
+    table.attributes["source"] = join(sources);
+    return table;
+}
+
+List<word> patchNames(const zoneGeometry& geometry)
+{
+    List<word> names;
+    for (const patchInfo& p : geometry.patches()) names.push_back(p.name);
+    return names;
+}
+
+}  // namespace
+
+void writeSurfaces(const word& caseFolder, const zoneGeometry& geometry)
+{
+    const word folder = caseFolder + "/constant/triSurface/";
+    std::filesystem::create_directories(folder);
+    for (size_t p = 0; p < geometry.patches().size(); ++p)
+    {
+        if (geometry.patchSurface(label(p)).empty()) continue;
+        triSurface s = forDisk(geometry.patchSurface(label(p)), geometry);
+        s.patchNames = {geometry.patches()[p].name};
+        s.patch.assign(s.patch.size(), 0);
+        writeSTL(s, folder + geometry.patches()[p].name + ".stl");
+    }
+    for (size_t a = 0; a < geometry.zones().size(); ++a)
+        for (const zoneInfo& fluid : geometry.zones())
+        {
+            const zoneInfo& solid = geometry.zones()[a];
+            const triSurface& s = geometry.boundary(label(a));
+            const word side = zoneGeometry::towards(fluid.name);
+            const bool touch =
+                std::find(s.patchNames.begin(), s.patchNames.end(), side) != s.patchNames.end();
+            if (solid.phase != phaseType::solid || fluid.phase != phaseType::fluid || !touch)
+                continue;
+            triSurface part = forDisk(s.patchSurface(side), geometry);
+            const word name = solid.name + "_to_" + fluid.name;
+            part.patchNames = {name};
+            writeSTL(part, folder + name + ".stl");
+        }
+}
+
+void writeParticleFiles(const word& caseFolder, const zoneGeometry& geometry,
+                        const placedParticles& placed, const List<word>& sources)
+{
+    particleTable particles = emptyTable(geometry, sources);
+    particles.x = placed.x;
+    particles.vectors["U"].assign(placed.x.size(), vector::Zero());
+    particles.scalars["p"].assign(placed.x.size(), 0);
+    particles.integers["zone"].assign(placed.zone.begin(), placed.zone.end());
+    auto& id = particles.integers["id"];
+    id.resize(placed.x.size());
+    std::iota(id.begin(), id.end(), 0);
+    List<word> names, phases;
+    for (const zoneInfo& z : geometry.zones())
+        names.push_back(z.name), phases.push_back(phaseWord(z));
+    particles.attributes["zones"] = join(names);
+    particles.attributes["phases"] = join(phases);
+
+    particleTable walls = emptyTable(geometry, sources), sites = walls;
+    walls.x = placed.rigid;
+    walls.integers["patch"].assign(placed.rigidPatch.begin(), placed.rigidPatch.end());
+    for (size_t i = 0; i < placed.x.size(); ++i)
+    {
+        if (placed.strip[i] < 0) continue;
+        sites.x.push_back(placed.x[i]);
+        sites.integers["patch"].push_back(placed.strip[i]);
+        sites.integers["zone"].push_back(placed.zone[i]);
+    }
+    walls.attributes["patches"] = sites.attributes["patches"] = join(patchNames(geometry));
+    sites.attributes["zones"] = particles.attributes["zones"];
+
+    std::filesystem::create_directories(caseFolder + "/0");
+    // One that an earlier run left would be taken for valid
+    for (const auto& [table, file] : {std::pair(&walls, "/constant/wallParticles.hdf"),
+                                      std::pair(&sites, "/constant/openSites.hdf")})
+    {
+        std::filesystem::remove(caseFolder + file);
+        if (table->size() > 0) writeParticles(*table, caseFolder + file);
+    }
+    writeParticles(particles, caseFolder + "/0/particles.hdf");
+}
+
+}  // namespace ispf

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "faceSelector.H"
+
+#include <algorithm>
+
+namespace ispf
+{
+
+namespace
+{
+
+// Colours lose a little on their way through linear light and percentages
+constexpr int colourTolerance = 6;
+
+bool has(const List<word>& list, const word& name)
+{
+    return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+}  // namespace
+
+faceSelector::faceSelector(const dictionary& dict)
+{
+    if (dict.found("colour"))
+    {
+        hasColour_ = true;
+        colour_ = dict.get<List<label>>("colour");
+        if (colour_.size() != 3) dict.fail("colour", "A colour is three numbers (r g b), 0 to 255");
+    }
+    if (dict.found("faces")) faces_ = dict.get<List<label>>("faces");
+    if (dict.found("group")) group_ = dict.get<word>("group");
+    if (dict.found("box"))
+    {
+        const auto corners = dict.get<List<vector>>("box");
+        if (corners.size() != 2) dict.fail("box", "A box is two corners: ((x y z) (x y z)), in m");
+        hasBox_ = true;
+        box_.add(corners[0]), box_.add(corners[1]);
+    }
+}
+
+bool faceSelector::matches(const cadFace& face) const
+{
+    if (hasColour_ && face.coloured)
+    {
+        bool same = true;
+        for (int k = 0; k < 3; ++k)
+            same = same && std::abs(face.colour[k] - colour_[k]) <= colourTolerance;
+        if (same) return true;
+    }
+    if (std::find(faces_.begin(), faces_.end(), face.tag) != faces_.end()) return true;
+    if (!group_.empty() && has(face.groups, group_)) return true;
+    if (!hasBox_) return false;
+    const boundBox b = face.surface.bounds();
+    return !b.empty() && (b.min.array() >= box_.min.array()).all() &&
+           (b.max.array() <= box_.max.array()).all();
+}
+
+bool faceSelector::matches(const cadVolume& volume) const
+{
+    return !group_.empty() && has(volume.groups, group_);
+}
+
+word faceSelector::describe() const
+{
+    List<word> parts;
+    if (hasColour_)
+        parts.push_back("colour (" + std::to_string(colour_[0]) + " " + std::to_string(colour_[1]) +
+                        " " + std::to_string(colour_[2]) + ")");
+    if (!faces_.empty()) parts.push_back("the listed faces");
+    if (!group_.empty()) parts.push_back("group " + group_);
+    if (hasBox_) parts.push_back("the box");
+    return join(parts, " or ");
+}
+
+}  // namespace ispf

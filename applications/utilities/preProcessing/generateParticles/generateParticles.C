@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fills a geometry with particles: system/particleDict and constant/boundary in, 0/particles.hdf,
+// wall particles, sites of open faces and surfaces out.
+#include "argList.H"
+#include "caseWriter.H"
+#include "packingReport.H"
+#include "particleDict.H"
+
+using namespace ispf;
+
+int main(int argc, char** argv)
+{
+    return runMain([&] {
+        argList args("generateParticles",
+                     "Fills the geometry of system/particleDict with particles.");
+        if (!args.parse(argc, argv)) return 0;
+        args.printHeader();
+        const word folder = args.caseFolder();
+
+        particleDict dict(folder);
+        info() << "Reading the geometry" << std::endl;
+        const zoneGeometry geometry = dict.geometry();
+        const exterior outside(geometry, dict.wallThickness(), dict.stripWidth());
+        writeSurfaces(folder, geometry);
+
+        info() << "Placing particles" << std::endl;
+        const placedParticles placed = placeOnLattice(geometry, outside, dict.origin, dict.support);
+        reportPacking(geometry, placed, dict.support);
+        writeParticleFiles(folder, geometry, placed, dict.sources);
+        info() << "End" << std::endl;
+        return 0;
+    });
+}

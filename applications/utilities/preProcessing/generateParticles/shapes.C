@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shapes.H"
+
+#include "surfaceTopology.H"
+#include <algorithm>
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+constexpr scalar prismHalfHeight = 1e4;  // of two-dimensional shapes, in dx
+
+word shapeOf(const dictionary& dict)
+{
+    return dict.choose("shape", {"box", "sphere", "ellipsoid", "cylinder", "annulus"});
+}
+
+// Segments of a circle so that the sag stays below 1e-3 dx; a multiple of 4 keeps symmetry planes
+label segments(scalar radius, scalar dx)
+{
+    const scalar angle = std::acos(std::max(0.0, 1 - 1e-3 * dx / radius));
+    return 4 * std::max<label>(4, label(std::ceil(M_PI / (4 * angle))));
+}
+
+void quad(triSurface& s, const vector& a, const vector& b, const vector& c, const vector& d)
+{
+    s.add(a, b, c, 0), s.add(a, c, d, 0);
+}
+
+triSurface box(const vector& lo, const vector& hi)
+{
+    triSurface s;
+    s.addPatch("");
+    const auto p = [&](int i, int j, int k) {
+        return vector(i ? hi[0] : lo[0], j ? hi[1] : lo[1], k ? hi[2] : lo[2]);
+    };
+    quad(s, p(0, 0, 0), p(0, 1, 0), p(1, 1, 0), p(1, 0, 0));
+    quad(s, p(0, 0, 1), p(1, 0, 1), p(1, 1, 1), p(0, 1, 1));
+    quad(s, p(0, 0, 0), p(1, 0, 0), p(1, 0, 1), p(0, 0, 1));
+    quad(s, p(0, 1, 0), p(0, 1, 1), p(1, 1, 1), p(1, 1, 0));
+    quad(s, p(0, 0, 0), p(0, 0, 1), p(0, 1, 1), p(0, 1, 0));
+    quad(s, p(1, 0, 0), p(1, 1, 0), p(1, 1, 1), p(1, 0, 1));
+    return s;
+}
+
+struct frame  // of a body of revolution
+{
+    vector origin, axis, u, v;
+
+    frame(const vector& from, const vector& along) : origin(from), axis(along.normalized())
+    {
+        int least;
+        axis.cwiseAbs().minCoeff(&least);
+        u = vector::Unit(least) - axis[least] * axis;
+        u.normalize();
+        v = axis.cross(u);
+    }
+    vector at(scalar r, scalar z, scalar angle) const
+    {
+        return origin + z * axis + r * (std::cos(angle) * u + std::sin(angle) * v);
+    }
+};
+
+// Turns a closed outline of (radius, height) about the axis
+triSurface revolved(const frame& f, const List<std::pair<scalar, scalar>>& outline, label n)
+{
+    triSurface s;
+    s.addPatch("");
+    for (label k = 0; k < n; ++k)
+    {
+        const scalar a = 2 * M_PI * k / n, b = 2 * M_PI * (k + 1) / n;
+        for (size_t e = 0; e < outline.size(); ++e)
+        {
+            const auto [r0, z0] = outline[e];
+            const auto [r1, z1] = outline[(e + 1) % outline.size()];
+            if (r0 == 0 && r1 == 0) continue;
+            const vector p = f.at(r0, z0, a), q = f.at(r0, z0, b);
+            const vector c = f.at(r1, z1, b), d = f.at(r1, z1, a);
+            if (r0 > 0) s.add(p, q, c, 0);
+            if (r1 > 0) s.add(p, c, d, 0);
+        }
+    }
+    return s;
+}
+
+triSurface ellipsoid(const vector& centre, const vector& semi, scalar dx)
+{
+    const label n = segments(semi.maxCoeff(), dx), rings = n / 2;
+    List<std::pair<scalar, scalar>> outline;
+    for (label k = 0; k <= rings; ++k)
+    {
+        const scalar angle = M_PI * k / rings;
+        outline.push_back({k == 0 || k == rings ? 0 : std::sin(angle), -std::cos(angle)});
+    }
+    triSurface s = revolved(frame(vector::Zero(), vector::UnitZ()), outline, n);
+    for (vector& p : s.nodes) p = centre + vector(semi.cwiseProduct(p));
+    return s;
+}
+
+triSurface tube(const vector& p1, const vector& p2, scalar inner, scalar outer, scalar dx)
+{
+    const scalar length = (p2 - p1).norm();
+    const List<std::pair<scalar, scalar>> outline = {
+        {inner, 0}, {outer, 0}, {outer, length}, {inner, length}};
+    return revolved(frame(p1, p2 - p1), outline, segments(outer, dx));
+}
+
+// The ellipse, disc or ring with semi-axes `outer` as a prism
+triSurface prism(const vector& centre, const vector& outer, scalar inner, scalar dx)
+{
+    const scalar h = prismHalfHeight * dx, big = std::max(outer[0], outer[1]);
+    const scalar hole = inner / big;
+    triSurface s = revolved(frame(vector(0, 0, -h), vector::UnitZ()),
+                            {{hole, 0}, {1, 0}, {1, 2 * h}, {hole, 2 * h}}, segments(big, dx));
+    for (vector& p : s.nodes)
+        p = vector(centre[0] + outer[0] * p[0], centre[1] + outer[1] * p[1], p[2]);
+    return s;
+}
+
+triSurface flatShape(const dictionary& dict, scalar dx)
+{
+    const word shape = shapeOf(dict);
+    const scalar h = prismHalfHeight * dx;
+    if (shape == "box")
+    {
+        vector lo = dict.get<vector>("min"), hi = dict.get<vector>("max");
+        lo[2] = -h, hi[2] = h;
+        return box(lo, hi);
+    }
+    if (shape == "ellipsoid")
+        return prism(dict.get<vector>("centre"), dict.get<vector>("semiAxes"), 0, dx);
+    if (shape == "sphere")
+        return prism(dict.get<vector>("centre"), vector::Constant(dict.get<scalar>("radius")), 0,
+                     dx);
+    const vector centre = dict.get<vector>("point1");
+    dict.getOrDefault<vector>("point2", centre);
+    if (shape == "cylinder")
+        return prism(centre, vector::Constant(dict.get<scalar>("radius")), 0, dx);
+    return prism(centre, vector::Constant(dict.get<scalar>("outerRadius")),
+                 dict.get<scalar>("innerRadius"), dx);
+}
+
+triSurface fullShape(const dictionary& dict, scalar dx)
+{
+    const word shape = shapeOf(dict);
+    if (shape == "box") return box(dict.get<vector>("min"), dict.get<vector>("max"));
+    if (shape == "sphere")
+        return ellipsoid(dict.get<vector>("centre"), vector::Constant(dict.get<scalar>("radius")),
+                         dx);
+    if (shape == "ellipsoid")
+        return ellipsoid(dict.get<vector>("centre"), dict.get<vector>("semiAxes"), dx);
+    const vector p1 = dict.get<vector>("point1"), p2 = dict.get<vector>("point2");
+    if (shape == "cylinder") return tube(p1, p2, 0, dict.get<scalar>("radius"), dx);
+    return tube(p1, p2, dict.get<scalar>("innerRadius"), dict.get<scalar>("outerRadius"), dx);
+}
+
+}  // namespace
+
+triSurface makeShape(const dictionary& dict, scalar dx, int nDims)
+{
+    triSurface s = nDims == 2 ? flatShape(dict, dx) : fullShape(dict, dx);
+    s.weld(1e-9 * dx);
+    if (s.empty() || s.volume() == 0) dict.fail("shape", "The shape has no volume");
+    orientOutward(s);
+    return s;
+}
+
+scalar shapeVolume(const dictionary& dict)
+{
+    const word shape = shapeOf(dict);
+    const auto scalarOf = [&](const char* key) { return dict.get<scalar>(key); };
+    if (shape == "box")
+        return (dict.get<vector>("max") - dict.get<vector>("min")).cwiseAbs().prod();
+    if (shape == "sphere") return 4 * M_PI / 3 * std::pow(scalarOf("radius"), 3);
+    if (shape == "ellipsoid") return 4 * M_PI / 3 * dict.get<vector>("semiAxes").prod();
+    const scalar length = (dict.get<vector>("point2") - dict.get<vector>("point1")).norm();
+    if (shape == "cylinder") return M_PI * std::pow(scalarOf("radius"), 2) * length;
+    const scalar outer = scalarOf("outerRadius"), inner = scalarOf("innerRadius");
+    return M_PI * (outer * outer - inner * inner) * length;
+}
+
+}  // namespace ispf

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "packingReport.H"
+
+#include "cellList.H"
+#include "smoothingKernel.H"
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+
+namespace ispf
+{
+
+namespace
+{
+
+// All particles, rigid ones and images: what a particle sees
+List<vector> everything(const zoneGeometry& geometry, const placedParticles& placed, scalar support)
+{
+    List<vector> all = placed.x;
+    all.insert(all.end(), placed.rigid.begin(), placed.rigid.end());
+    for (const halfSpace& plane : geometry.symmetryPlanes())
+        for (size_t i = 0, n = all.size(); i < n; ++i)
+            if (plane.distance(all[i]) > -support) all.push_back(plane.mirror(all[i]));
+    return all;
+}
+
+// Where no neighbours are: faces of solids that touch nothing, faces without rigid particles
+triSurface openEnds(const zoneGeometry& geometry)
+{
+    triSurface ends;
+    for (size_t z = 0; z < geometry.zones().size(); ++z)
+    {
+        const triSurface& s = geometry.boundary(label(z));
+        ends.append(s.subset([&](label t) {
+            const word& name = s.patchNames[s.patch[t]];
+            for (const patchInfo& p : geometry.patches())
+                if (p.name == name) return p.type == patchInfo::kind::other;
+            return name.empty();
+        }));
+    }
+    return ends;
+}
+
+}  // namespace
+
+List<zoneQuality> packingQuality(const zoneGeometry& geometry, const placedParticles& placed,
+                                 scalar support)
+{
+    const scalar dx = geometry.dx(), cell = std::pow(dx, geometry.nDims());
+    const auto kernel = smoothingKernel::New("WendlandC2", geometry.nDims(), support / 2);
+    const scalar full = kernel->latticeSum(dx);
+    const List<vector> all = everything(geometry, placed, support);
+    const cellList cells(all, support);
+    const surfaceSearch ends(openEnds(geometry));
+
+    const label n = label(placed.x.size());
+    List<scalar> sum(n, 0), nearest(n, support);
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            cells.near(placed.x[i], support, [&](label j, scalar d2) {
+                sum[i] += cell * kernel->W(std::sqrt(d2)) / full;
+                if (j != i) nearest[i] = std::min(nearest[i], std::sqrt(d2));
+            });
+    });
+    List<zoneQuality> quality(geometry.zones().size());
+    for (zoneQuality& q : quality) q.least = 1e9, q.most = 0, q.minDistance = 1e9;
+    for (label i = 0; i < n; ++i)
+    {
+        zoneQuality& q = quality[placed.zone[i]];
+        q.minDistance = std::min(q.minDistance, nearest[i] / dx);
+        if (placed.strip[i] >= 0) continue;
+        ++q.n;
+        if (ends.within(placed.x[i], support)) continue;
+        ++q.nInterior;
+        q.least = std::min(q.least, sum[i]), q.most = std::max(q.most, sum[i]);
+        q.mean += sum[i], q.rms += (sum[i] - 1) * (sum[i] - 1);
+    }
+    for (size_t z = 0; z < quality.size(); ++z)
+    {
+        zoneQuality& q = quality[z];
+        const scalar count = std::max<label>(1, q.nInterior);
+        q.mean /= count, q.rms = std::sqrt(q.rms / count);
+        q.volumeError = q.n * cell / geometry.volume(label(z)) - 1;
+    }
+    return quality;
+}
+
+void reportPacking(const zoneGeometry& geometry, const placedParticles& placed, scalar support)
+{
+    const List<zoneQuality> quality = packingQuality(geometry, placed, support);
+    std::ostream& out = info();
+    const auto percent = [](scalar v) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%+.2f", 100 * v);
+        return word(text);
+    };
+    out << "\nzone              volume  particles  error %   kernel sum %: least   mean    most    "
+           "rms"
+           "   closest/dx\n";
+    for (size_t z = 0; z < quality.size(); ++z)
+    {
+        const zoneQuality& q = quality[z];
+        const word& name = geometry.zones()[z].name;
+        if (q.n == 0)
+            throw fatalError("Zone " + name + " has no particle. Is dx = " + str(geometry.dx()) +
+                             " m right, and the unit of its file?");
+        out << std::left << std::setw(12) << name << std::right << std::setw(12)
+            << str(geometry.volume(label(z)), 5) << std::setw(11) << q.n << std::setw(9)
+            << percent(q.volumeError);
+        if (q.nInterior > 0)
+            out << std::setw(22) << percent(q.least - 1) << std::setw(8) << percent(q.mean - 1)
+                << std::setw(8) << percent(q.most - 1) << std::setw(7) << percent(q.rms).substr(1);
+        else out << std::setw(45) << "no particle has neighbours all around";
+        out << std::setw(13) << str(q.minDistance, 3) << "\n";
+    }
+    label strip = 0;
+    for (const label p : placed.strip) strip += p >= 0;
+    out << "beyond open faces " << strip << ", rigid wall " << placed.rigid.size() << ", together "
+        << placed.x.size() + placed.rigid.size() << "\n"
+        << std::endl;
+}
+
+}  // namespace ispf

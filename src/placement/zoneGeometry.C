@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "zoneGeometry.H"
+
+#include "surfaceTopology.H"
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace ispf
+{
+
+namespace
+{
+
+// How far from a triangle its two sides are looked at, in dx: beyond the sag of coarse facets, well
+// within the thinnest zone that holds a particle
+constexpr scalar probe = 0.05;
+
+bool isPrismEnd(const triSurface& s, label t)
+{
+    return std::abs(s.normal(t)[2]) > 0.9;
+}
+
+}  // namespace
+
+zoneGeometry::zoneGeometry(List<zoneInfo> zones, List<patchInfo> patches, List<body> bodies,
+                           List<halfSpace> symmetryPlanes, const word& defaultPatch, scalar dx,
+                           int nDims)
+    : zones_(std::move(zones)),
+      patches_(std::move(patches)),
+      bodies_(std::move(bodies)),
+      planes_(std::move(symmetryPlanes)),
+      defaultPatch_(defaultPatch),
+      dx_(dx),
+      nDims_(nDims)
+{
+    for (body& b : bodies_)
+    {
+        checkClosed(b);
+        winding_.emplace_back(b.surface);
+        bodyBounds_.push_back(b.surface.bounds());
+    }
+    classify();
+    for (size_t z = 0; z < zones_.size(); ++z)
+    {
+        if (boundary_[z].empty())
+            throw fatalError("Zone " + zones_[z].name +
+                             " is empty: no body belongs to it, or later bodies cover it, or the "
+                             "symmetry planes cut it away");
+        bounds_.add(boundary_[z].bounds());
+    }
+    if (nDims_ == 2) bounds_.min[2] = bounds_.max[2] = 0;
+    gatherPatches();
+    setVolumes();
+}
+
+void zoneGeometry::checkClosed(body& b) const
+{
+    const word& name = zones_[b.zone].name;
+    if (b.surface.empty()) throw fatalError("A body of zone " + name + " has no triangles");
+    const closednessReport report = ispf::checkClosed(b.surface);
+    if (!report.closed())
+        throw fatalError("The surface of zone " + name + " is not closed: " + report.describe() +
+                         " m. Close the gap in the CAD program, or raise weldTolerance if the "
+                         "faces only fail to meet exactly");
+    const scalar thickness = 3 * b.surface.volume() / b.surface.area();
+    if (nDims_ == 3 && thickness < 0.5 * dx_)
+        throw fatalError("Zone " + name + " is about " + str(thickness) +
+                         " m thick and the particle spacing dx is " + str(dx_) +
+                         " m: it could not hold a particle. Is the unit of its file right?");
+}
+
+bool zoneGeometry::inBodies(const vector& x, label& zone) const
+{
+    for (size_t b = bodies_.size(); b-- > 0;)
+        if (bodyBounds_[b].distSqr(x) == 0 && winding_[b].inside(x))
+        {
+            zone = bodies_[b].zone;
+            return true;
+        }
+    return false;
+}
+
+scalar zoneGeometry::beyondSymmetry(const vector& x) const
+{
+    scalar most = -std::numeric_limits<scalar>::max();
+    for (const halfSpace& plane : planes_) most = std::max(most, plane.distance(x));
+    return most;
+}
+
+label zoneGeometry::zoneAt(const vector& x) const
+{
+    label zone = -1;
+    return beyondSymmetry(x) < 0 && inBodies(x, zone) ? zone : -1;
+}
+
+word zoneGeometry::patchOf(label zone, const word& asked, label other) const
+{
+    if (other >= 0) return towards(zones_[other].name);
+    if (asked.empty() && zones_[zone].phase == phaseType::fluid) return defaultPatch_;
+    return asked;
+}
+
+void zoneGeometry::addBoundary(label zone, const triSurface& from, label t, label other,
+                               bool turned)
+{
+    triSurface& to = boundary_[zone];
+    const label p = to.addPatch(patchOf(zone, from.patchNames[from.patch[t]], other));
+    to.add(from.corner(t, 0), from.corner(t, turned ? 2 : 1), from.corner(t, turned ? 1 : 2), p);
+}
+
+void zoneGeometry::classify()
+{
+    const scalar tiny = 1e-6 * dx_;
+    List<triSurface> skin;  // of each body, inside the symmetry planes, without prism ends
+    List<surfaceSearch> own(zones_.size());
+    List<triSurface> zoneSkin(zones_.size());
+    for (const body& b : bodies_)
+    {
+        triSurface s = b.surface;
+        if (nDims_ == 2) s = s.subset([&](label t) { return !isPrismEnd(s, t); });
+        for (const halfSpace& plane : planes_) s = clipped(s, plane, tiny);
+        zoneSkin[b.zone].append(s);
+        skin.push_back(std::move(s));
+    }
+    for (size_t z = 0; z < zones_.size(); ++z) own[z] = surfaceSearch(zoneSkin[z]);
+    boundary_.resize(zones_.size());
+    for (size_t k = 0; k < bodies_.size(); ++k)
+        for (label t = 0; t < skin[k].size(); ++t)
+        {
+            const triSurface& s = skin[k];
+            vector c = s.centre(t);
+            if (nDims_ == 2) c[2] = 0;
+            const vector step = probe * dx_ * s.normal(t);
+            label inner = -1, outer = -1;
+            inBodies(c - step, inner), inBodies(c + step, outer);
+            if (inner == outer || inner != bodies_[k].zone) continue;
+            addBoundary(inner, s, t, outer, false);
+            // A shape set into another bounds it too, unless the other has a face of its own there
+            if (outer >= 0 && !own[outer].within(c, 2 * probe * dx_))
+                addBoundary(outer, s, t, inner, true);
+        }
+    for (triSurface& s : boundary_) s.weld(tiny);
+}
+
+void zoneGeometry::gatherPatches()
+{
+    for (const patchInfo& patch : patches_)
+    {
+        triSurface all;
+        for (size_t z = 0; z < zones_.size(); ++z)
+        {
+            const triSurface& s = boundary_[z];
+            const auto at = std::find(s.patchNames.begin(), s.patchNames.end(), patch.name);
+            if (at == s.patchNames.end() || zones_[z].phase != phaseType::fluid) continue;
+            triSurface part = s.patchSurface(patch.name);
+            part.patchNames = {zones_[z].name};
+            all.append(part);
+        }
+        all.weld(1e-6 * dx_);
+        if (all.empty() && patch.type != patchInfo::kind::other)
+            throw fatalError("Patch " + patch.name +
+                             " has no face: no outer face of a fluid zone was given that name");
+        patchSurface_.push_back(std::move(all));
+    }
+}
+
+void zoneGeometry::setVolumes()
+{
+    for (size_t z = 0; z < zones_.size(); ++z)
+    {
+        const triSurface& s = boundary_[z];
+        if (nDims_ == 2)
+        {
+            // Divergence theorem in the plane, over a prism of known height
+            const boundBox box = s.bounds();
+            scalar sum = 0;
+            for (label t = 0; t < s.size(); ++t)
+                sum += s.areaVector(t).dot(s.corner(t, 0) - box.centre());
+            volume_.push_back(sum / (2 * (box.max[2] - box.min[2])));
+            continue;
+        }
+        scalar true_ = 0, meshed = 0, cut = 0;
+        bool whole = true;
+        for (const body& b : bodies_)
+            if (b.zone == label(z))
+            {
+                const scalar v = b.surface.volume();
+                true_ += b.volume > 0 ? b.volume : v, meshed += v;
+                cut += clippedVolume(b.surface, planes_);
+            }
+        triSurface closed = s;
+        for (const halfSpace& plane : planes_)
+        {
+            closed.append(lids(closed, plane, 1e-5 * dx_));
+            closed.weld(1e-6 * dx_);
+        }
+        // Facets lie inside a convex surface: scaled to the volume the CAD kernel knows
+        const scalar bounded = closed.volume();
+        whole = std::abs(bounded - cut) < 1e-3 * cut;
+        volume_.push_back(whole ? cut * true_ / meshed : bounded);
+    }
+}
+
+}  // namespace ispf
