@@ -113,7 +113,14 @@ label surfaceSearch::build(label begin, label end)
 
 void surfaceSearch::setNormals()
 {
-    std::map<std::pair<label, label>, vector> edge;
+    struct edgeSum
+    {
+        vector normal = vector::Zero();
+        int users = 0;
+    };
+    std::map<std::pair<label, label>, edgeSum> edge;
+    const auto sumOf = [&](label t, int k) -> edgeSum&
+    { return edge[std::minmax(surface_.triangles[t][k], surface_.triangles[t][(k + 1) % 3])]; };
     nodeNormal_.assign(surface_.nodes.size(), vector::Zero());
     for (label t = 0; t < surface_.size(); ++t)
     {
@@ -121,27 +128,35 @@ void surfaceSearch::setNormals()
         facetNormal_.push_back(n);
         for (int k = 0; k < 3; ++k)
         {
-            const label a = surface_.triangles[t][k], b = surface_.triangles[t][(k + 1) % 3];
-            const auto sum = edge.emplace(std::minmax(a, b), vector::Zero()).first;
-            sum->second += n;
+            sumOf(t, k).normal += n;
+            ++sumOf(t, k).users;
             const vector u = surface_.corner(t, (k + 1) % 3) - surface_.corner(t, k);
             const vector v = surface_.corner(t, (k + 2) % 3) - surface_.corner(t, k);
-            nodeNormal_[a] += std::atan2(u.cross(v).norm(), u.dot(v)) * n;
+            nodeNormal_[surface_.triangles[t][k]] += std::atan2(u.cross(v).norm(), u.dot(v)) * n;
         }
     }
     edgeNormal_.resize(surface_.size());
+    rim_.assign(surface_.size(), 0);
+    List<char> onRim(surface_.nodes.size(), 0);
     for (label t = 0; t < surface_.size(); ++t)
         for (int k = 0; k < 3; ++k)
         {
-            const label a = surface_.triangles[t][k], b = surface_.triangles[t][(k + 1) % 3];
-            edgeNormal_[t][k] = edge[std::minmax(a, b)].normalized();
+            const edgeSum& sum = sumOf(t, k);
+            edgeNormal_[t][k] = sum.normal.normalized();
+            if (sum.users > 1) continue;
+            rim_[t] |= std::uint8_t(1 << k);
+            onRim[surface_.triangles[t][k]] = onRim[surface_.triangles[t][(k + 1) % 3]] = 1;
         }
+    for (label t = 0; t < surface_.size(); ++t)
+        for (int k = 0; k < 3; ++k)
+            if (onRim[surface_.triangles[t][k]]) rim_[t] |= std::uint8_t(8 << k);
     for (vector& n : nodeNormal_) n.normalize();
 }
 
 void surfaceSearch::finish(surfacePoint& best, int part) const
 {
     best.found = true;
+    best.rim = part > 0 && (rim_[best.triangle] >> (part - 1) & 1);
     if (part == 0) best.normal = facetNormal_[best.triangle];
     else if (part < 4)
         best.feature = surfaceFeature::edge, best.normal = edgeNormal_[best.triangle][part - 1];

@@ -17,40 +17,57 @@ exterior::exterior(const zoneGeometry& geometry, scalar wallThickness, scalar st
     }
 }
 
+exteriorPoint exterior::footOn(label patch, const vector& x, scalar radius) const
+{
+    exteriorPoint foot;
+    const surfacePoint q = search_[patch].nearest(x, radius);
+    if (!q.found) return foot;
+    foot.type = exteriorPoint::kind::rigid;
+    foot.patch = patch;
+    foot.distance = q.distance;
+    foot.depth = q.rim ? (x - q.point).dot(q.normal) : q.signedDistance(x);
+    foot.normal = q.normal;
+    if (!q.rim && q.distance > 1e-6 * geometry_.dx()) foot.normal = (x - q.point) / foot.depth;
+    foot.foot = x - foot.depth * foot.normal;
+    foot.triangle = q.triangle;
+    return foot;
+}
+
 bool exterior::findWall(const vector& x, exteriorPoint& wall) const
 {
     const scalar tie = 1e-6 * geometry_.dx();
-    bool found = false;
     for (size_t p = 0; p < search_.size(); ++p)
     {
         const patchInfo& patch = geometry_.patches()[p];
         if (patch.type != patchInfo::kind::wall) continue;
-        const surfacePoint q = search_[p].nearest(x, wallThickness_);
-        if (!q.found || q.signedDistance(x) <= 0) continue;
-        const bool better = !found || q.distance < wall.depth - tie ||
-                            (q.distance < wall.depth + tie && !patch.moving);
-        if (!better) continue;
-        found = true;
-        wall = {exteriorPoint::kind::rigid, label(p), -1, q.distance, q.point, q.normal};
+        // Beside a rim a wall reaches on under the whole strip
+        const exteriorPoint q = footOn(label(p), x, wallThickness_ + 2 * stripWidth_);
+        if (q.type == exteriorPoint::kind::nothing || q.depth <= 0 || q.depth > wallThickness_)
+            continue;
+        const bool better = wall.type == exteriorPoint::kind::nothing ||
+                            q.distance < wall.distance - tie ||
+                            (q.distance < wall.distance + tie && !patch.moving);
+        if (better) wall = q;
     }
-    return found;
+    return wall.type != exteriorPoint::kind::nothing;
 }
 
 bool exterior::findOpen(const vector& x, exteriorPoint& open) const
 {
-    bool found = false;
     for (size_t p = 0; p < search_.size(); ++p)
     {
         if (geometry_.patches()[p].type != patchInfo::kind::open) continue;
-        const surfacePoint q = search_[p].nearest(x, stripWidth_ * (1 + 1e-6));
-        if (!q.found || q.signedDistance(x) <= 0 || (found && q.distance >= open.depth)) continue;
-        found = true;
-        const word& zone = search_[p].surface().patchNames[search_[p].patch(q)];
-        label z = 0;
-        while (geometry_.zones()[z].name != zone) ++z;
-        open = {exteriorPoint::kind::strip, label(p), z, q.distance, q.point, q.normal};
+        const exteriorPoint q = footOn(label(p), x, stripWidth_ * (1 + 1e-6));
+        const bool found = open.type != exteriorPoint::kind::nothing;
+        if (q.type == exteriorPoint::kind::nothing || q.depth <= 0 ||
+            (found && q.distance >= open.distance))
+            continue;
+        open = q;
+        open.type = exteriorPoint::kind::strip;
+        const word& zone = search_[p].surface().patchNames[search_[p].surface().patch[q.triangle]];
+        for (open.zone = 0; geometry_.zones()[open.zone].name != zone;) ++open.zone;
     }
-    return found;
+    return open.type != exteriorPoint::kind::nothing;
 }
 
 exteriorPoint exterior::at(const vector& x) const
@@ -59,7 +76,7 @@ exteriorPoint exterior::at(const vector& x) const
     const bool behindWall = findWall(x, wall);
     if (!findOpen(x, open)) return wall;
     // Where wall and open face meet, both are equally far: the wall's plane decides
-    return behindWall && wall.depth <= open.depth * (1 + 1e-6) ? wall : open;
+    return behindWall && wall.distance <= open.distance * (1 + 1e-6) ? wall : open;
 }
 
 boundBox exterior::bounds() const
