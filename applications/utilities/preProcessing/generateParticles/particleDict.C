@@ -26,8 +26,8 @@ word coloursOf(const cadModel& model)
     List<word> seen;
     for (const cadFace& f : model.faces)
     {
-        const word c = word("(") + std::to_string(f.colour[0]) + " " + std::to_string(f.colour[1]) + " " +
-                       std::to_string(f.colour[2]) + ")";
+        const word c = word("(") + std::to_string(f.colour[0]) + " " + std::to_string(f.colour[1]) +
+                       " " + std::to_string(f.colour[2]) + ")";
         if (f.coloured && std::find(seen.begin(), seen.end(), c) == seen.end()) seen.push_back(c);
     }
     return seen.empty() ? word("no colours") : "the colours " + join(seen);
@@ -207,6 +207,8 @@ zoneGeometry particleDict::geometry()
     const word word_ = dict_.chooseOrDefault("placement", {"lattice", "bodyFitted"},
                                              mustFit(bodies) ? "bodyFitted" : "lattice");
     bodyFitted = word_ == "bodyFitted";
+    for (const word& key : dict_.keys())  // what an included file holds for other programs
+        if (dict_.where(key).file != dict_.path()) dict_.tokens(key);
     dict_.checkAllRead();
     return zoneGeometry(zones_, patches_, std::move(bodies), planes_, defaultPatch_, dx, nDims);
 }
