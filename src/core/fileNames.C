@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fileNames.H"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -36,23 +34,6 @@ word caseFolder()
     return value ? value : ".";
 }
 
-void writeAndSync(const word& path, const word& text)
-{
-    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    size_t done = 0;
-    bool good = file >= 0;
-    while (good && done < text.size())
-    {
-        const ssize_t n = ::write(file, text.data() + done, text.size() - done);
-        good = n > 0 || (n < 0 && errno == EINTR);
-        if (n > 0) done += size_t(n);
-    }
-    good = good && ::fsync(file) == 0;
-    const int reason = errno;
-    if (file >= 0) ::close(file);
-    if (!good) throw fatalError("Cannot write " + path + ": " + std::strerror(reason) + ".");
-}
-
 }  // namespace
 
 word readText(const word& path)
@@ -64,16 +45,6 @@ word readText(const word& path)
     std::ostringstream text;
     text << in.rdbuf();
     return text.str();
-}
-
-void writeText(const word& path, const word& text)
-{
-    std::error_code error;
-    if (const word folder = folderOf(path); !folder.empty()) fs::create_directories(folder, error);
-    const word temporary = path + ".tmp" + std::to_string(::getpid());
-    if (!error) writeAndSync(temporary, text);
-    if (!error) fs::rename(temporary, path, error);
-    if (error) throw fatalError("Cannot write " + path + ": " + error.message() + ".");
 }
 
 bool isFile(const word& path)

@@ -6,7 +6,7 @@
 // All numbers are double or 64-bit integers, so what ParaView shows is what a restart reads.
 #include "particleTable.H"
 
-#include "atomicFile.H"
+#include "fileNames.H"
 #include "hdf5File.H"
 #include "particleTableCheck.H"
 
@@ -91,7 +91,7 @@ void writeParticles(const particleTable& table, const word& path)
     file.attribute(ours, "checksum", List<globalId>{checksumOf(table)});
     for (const auto& [name, values] : table.extra) file.write(extras + "/" + name, values);
     for (const auto& [name, text] : table.attributes) file.write(texts + "/" + name, text);
-    writeAtomically(path, file.bytes());
+    writeText(path, file.bytes());
 }
 
 particleTable readParticles(const word& path)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "particleTable.H"
 
-#include "atomicFile.H"
+#include "fileNames.H"
 
 #include <charconv>
 
@@ -44,7 +44,7 @@ void writeSeries(const word& path, const List<seriesEntry>& entries)
                 " }";
         separator = ",\n";
     }
-    writeAtomically(path, json + "\n  ]\n}\n");
+    writeText(path, json + "\n  ]\n}\n");
 }
 
 }  // namespace ispf

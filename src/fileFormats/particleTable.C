@@ -11,9 +11,10 @@ scalar particleTable::scalarAttribute(const word& name) const
     const auto found = attributes.find(name);
     if (found == attributes.end())
     {
-        word names;
-        for (const auto& [key, text] : attributes) names += " " + key;
-        throw fatalError("The particles have no attribute '" + name + "'.  There are:" + names);
+        List<word> names;
+        for (const auto& [key, text] : attributes) names.push_back(key);
+        throw fatalError("The particles have no attribute '" + name + "'.\n" +
+                         validWords("attribute", names));
     }
     const word& text = found->second;
     scalar value = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "atomicFile.H"
+#include "fileNames.H"
 #include "hdf5File.H"
 #include "particleTable.H"
 #include "scratchFolder.H"
@@ -159,7 +159,7 @@ TEST_CASE("columns of unequal length and impossible names are refused")
     foreign.group("/ispf/extra");
     foreign.group("/ispf/text");
     foreign.attribute("/ispf", "version", List<globalId>{1});
-    writeAtomically(path, foreign.bytes());
+    writeText(path, foreign.bytes());
     CHECK(says(errorOf([&] { readParticles(path); }), "9 rows but there are 10"));
 }
 
@@ -207,12 +207,12 @@ TEST_CASE("missing, foreign and newer files are told apart")
     CHECK(says(errorOf([&] { readParticles(path); }), "not an HDF5 file"));
     hdf5Writer other;
     other.write("/data", List<scalar>{1});
-    writeAtomically(path, other.bytes());
+    writeText(path, other.bytes());
     CHECK(says(errorOf([&] { readParticles(path); }), "not one of particles"));
     other.group("/VTKHDF/PointData");
     other.group("/ispf");
     other.attribute("/ispf", "version", List<globalId>{999});
-    writeAtomically(path, other.bytes());
+    writeText(path, other.bytes());
     CHECK(says(errorOf([&] { readParticles(path); }), "version is 999"));
 }
 

@@ -2,7 +2,7 @@
 // Samples the particles of written times on planes, for maps: see samplePlane.H for the dictionary.
 // Writes postProcessing/planeSample/<time>/<plane>.dat and, of a slice, <plane>.slice.dat.
 #include "argList.H"
-#include "atomicFile.H"
+#include "fileNames.H"
 #include "samplePlane.H"
 
 #include <algorithm>
@@ -85,9 +85,9 @@ int run(int argc, char** argv)
         const word out = root + "/postProcessing/planeSample/" + time.name + "/";
         for (const samplePlane& plane : planes)
         {
-            writeAtomically(out + plane.name() + ".dat", plane.grid(particles));
+            writeText(out + plane.name() + ".dat", plane.grid(particles));
             if (plane.hasSlice())
-                writeAtomically(out + plane.name() + ".slice.dat", plane.slice(particles));
+                writeText(out + plane.name() + ".slice.dat", plane.slice(particles));
         }
         info() << "planeSample: time " << time.name << ", " << planes.size() << " planes\n";
     }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "atomicFile.H"
+// writeText: a file that is either the old one or the new one, never a part of it
+#include "fileNames.H"
 
 #include <fcntl.h>
 #include <unistd.h>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 
 namespace ispf
 {
@@ -81,16 +83,15 @@ void syncFolder(const word& path, const word& folder)
 
 }  // namespace
 
-void writeAtomically(const word& path, std::string_view bytes)
+void writeText(const word& path, const word& text)
 {
-    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
-    const word folder = parent.empty() ? "." : parent.string();
+    const word folder = folderOf(path).empty() ? "." : folderOf(path);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) fail(path, "creating folder '" + folder + "'", error.value());
 
     temporaryFile file(path);
-    file.write(bytes);
+    file.write(text);
     file.moveIntoPlace();
     syncFolder(path, folder);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "atomicFile.H"
+#include "fileNames.H"
 #include "particleTable.H"
 #include "scratchFolder.H"
 
@@ -60,9 +60,9 @@ TEST_CASE("an unwritable folder is an error that names it")
 {
     const scratchFolder folder("unwritable");
     setContent(folder / "file", "not a folder");
-    CHECK_THROWS_WITH_AS(writeAtomically(folder / "file/a.hdf", "x"),
-                         doctest::Contains("file/a.hdf"), fatalError);
-    CHECK_THROWS_AS(writeAtomically("/proc/none/a.hdf", "x"), fatalError);
+    CHECK_THROWS_WITH_AS(writeText(folder / "file/a.hdf", "x"), doctest::Contains("file/a.hdf"),
+                         fatalError);
+    CHECK_THROWS_AS(writeText("/proc/none/a.hdf", "x"), fatalError);
     CHECK(contentOf(folder / "file") == "not a folder");
 }
 
