@@ -126,4 +126,30 @@ referenceNeighbours::referenceNeighbours(const structureReference& ref, scalar r
     }
 }
 
+List<std::int64_t> referenceNeighbours::reverse(const structureReference& ref) const
+{
+    List<std::int64_t> found(index.size());
+    const List<std::uint16_t> inverse = ref.inverseImages();
+    for (label i = 0; i < n(); ++i)
+        for (std::int64_t p = start[i]; p < start[i + 1]; ++p)
+        {
+            const label j = index[p];
+            const rowEntry wanted(image[p] ? inverse[image[p] - 1] + 1 : 0, i);
+            std::int64_t low = start[j], high = start[j + 1];
+            while (low < high)
+            {
+                const std::int64_t middle = (low + high) / 2;
+                if (rowEntry(image[middle], index[middle]) < wanted) low = middle + 1;
+                else high = middle;
+            }
+            if (low == start[j + 1] || rowEntry(image[low], index[low]) != wanted)
+                throw fatalError(
+                    "Solid particles " + std::to_string(i) + " and " + std::to_string(j) +
+                    " see each other's images from one side only: they are exactly one "
+                    "link radius apart. Change the radius by 1e-4");
+            found[p] = low;
+        }
+    return found;
+}
+
 }  // namespace ispf

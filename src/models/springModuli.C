@@ -56,4 +56,38 @@ scalar shearAnisotropy(const modulusTensor& C, int nDims)
     return least > 1e-9 * most ? most / least : std::numeric_limits<scalar>::infinity();
 }
 
+quarticTensor quartic(const vector& n)
+{
+    const scalar x = n[0], y = n[1], z = n[2], xx = x * x, yy = y * y, zz = z * z;
+    const scalar r6 = std::sqrt(6.0),
+                 r12 = std::sqrt(12.0);  // roots of the multinomial coefficients
+    quarticTensor q;
+    q << xx * xx, yy * yy, zz * zz, 2 * xx * x * y, 2 * xx * x * z, 2 * yy * y * x, 2 * yy * y * z,
+        2 * zz * z * x, 2 * zz * z * y, r6 * xx * yy, r6 * xx * zz, r6 * yy * zz, r12 * xx * y * z,
+        r12 * yy * x * z, r12 * zz * x * y;
+    return q;
+}
+
+quarticTensor isotropicQuartic(int nDims)
+{
+    quarticTensor q = quarticTensor::Zero();
+    for (int a = 0; a < nDims; ++a) q[a] = 3;  // C_1111 = 3 G, C_1122 = G
+    for (int a = 9; a < (nDims == 3 ? 12 : 10); ++a) q[a] = std::sqrt(6.0);
+    return q;
+}
+
+quarticRotation quarticTurn(const tensor& R)
+{
+    // least squares over directions enough to span the 15 components
+    constexpr int nDirections = 60;
+    Eigen::MatrixXd before(nDirections, 15), after(nDirections, 15);
+    for (int k = 0; k < nDirections; ++k)
+    {
+        const vector n =
+            vector(std::sin(1 + 2.3 * k), std::sin(2 + 3.7 * k), std::sin(3 + 5.1 * k));
+        before.row(k) = quartic(n.normalized()), after.row(k) = quartic(R * n.normalized());
+    }
+    return before.colPivHouseholderQr().solve(after).transpose();
+}
+
 }  // namespace ispf

@@ -80,24 +80,22 @@ public:
     {
         const springLinks all(dict, ref_);
         G_ = all.G;
-        summary_ = "springNetwork, links " + all.rule + ", " +
-                   str(scalar(all.pairs.nPairs()) / n(), 3) + " per particle, G " + str(G_, 6) +
-                   " Pa, E " + str(3 * G_, 6) + " Pa";
+        summary_ = "springNetwork, " + all.summary;
         links_ = movingLinks(all, ref_.fixed);
         makePattern();
     }
 
     void force(const List<vec4>& x, List<vec4>& f) const override;
     scalar energy(const List<vec4>& x) const override;
-    structureTangent tangentPattern() const override { return pattern_; }
-    void assembleTangent(const List<vec4>& x, tangentKind kind, structureTangent& K) const override;
+    blockMatrix3 tangentPattern() const override { return pattern_; }
+    void assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const override;
     scalar maxLinkForce(const List<vec4>& x) const override;
     linkStrain strain(const List<vec4>& x) const override;
     word description() const override { return summary_; }
 
 private:
     void makePattern();
-    void tangentRow(const List<vec4>& x, bool positive, label i, structureTangent& K) const;
+    void tangentRow(const List<vec4>& x, bool positive, label i, blockMatrix3& K) const;
 
     vector separation(const List<vec4>& x, label i, std::int64_t p) const
     {
@@ -109,7 +107,7 @@ private:
     scalar largest(const List<vec4>& x, const Value& value) const;
 
     linkTable links_;
-    structureTangent pattern_;
+    blockMatrix3 pattern_;
     word summary_;
 };
 
@@ -171,8 +169,7 @@ scalar springNetwork::energy(const List<vec4>& x) const
     });
 }
 
-void springNetwork::tangentRow(const List<vec4>& x, bool positive, label i,
-                               structureTangent& K) const
+void springNetwork::tangentRow(const List<vec4>& x, bool positive, label i, blockMatrix3& K) const
 {
     K.diagonal[i].setZero();
     for (label s = K.rowStart[i]; s < K.rowStart[i + 1]; ++s) K.value[s].setZero();
@@ -187,8 +184,7 @@ void springNetwork::tangentRow(const List<vec4>& x, bool positive, label i,
     }
 }
 
-void springNetwork::assembleTangent(const List<vec4>& x, tangentKind kind,
-                                    structureTangent& K) const
+void springNetwork::assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const
 {
     parallelFor(
         n(),

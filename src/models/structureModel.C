@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "structureModel.H"
-#include "parallel.H"
+#include "largestEigenvalue.H"
 
 namespace ispf
 {
@@ -14,24 +14,6 @@ structureReference checked(const structureReference& ref)
 {
     ref.check();
     return ref;
-}
-
-// y = K x, and its norm
-scalar product(const structureTangent& K, const List<vector>& x, List<vector>& y)
-{
-    const label n = label(K.diagonal.size());
-    const auto rows = [&](label begin, label end) {
-        scalar sum = 0;
-        for (label i = begin; i < end; ++i)
-        {
-            y[i] = K.diagonal[i] * x[i];
-            for (label s = K.rowStart[i]; s < K.rowStart[i + 1]; ++s)
-                y[i] += K.value[s] * x[K.column[s]];
-            sum += y[i].squaredNorm();
-        }
-        return sum;
-    };
-    return std::sqrt(parallelSum(n, rows));
 }
 
 }  // namespace
@@ -57,24 +39,9 @@ std::unique_ptr<structureModel> structureModel::New(const dictionary& dict,
 
 scalar structureModel::stableTimeStep(const List<vec4>& x, scalar mass) const
 {
-    structureTangent K = tangentPattern();
+    blockMatrix3 K = tangentPattern();
     assembleTangent(x, tangentKind::positive, K);
-    // Power iteration from a rough start (the fastest mode is at grid scale).  Its value approaches
-    // the largest eigenvalue from below; by Gershgorin it cannot exceed the largest block row sum.
-    List<vector> u(n()), Ku(n());
-    for (label i = 0; i < n(); ++i)
-        u[i] = vector(std::sin(12.9898 * i), std::sin(78.233 * i + 1), std::sin(37.719 * i + 2));
-    scalar length = 0, omega2 = 0;
-    for (const vector& v : u) length += v.squaredNorm();
-    length = std::sqrt(length);
-    for (int iteration = 0; iteration < 40; ++iteration)
-    {
-        const scalar next = product(K, u, Ku);
-        omega2 = next / length / mass;
-        for (label i = 0; i < n(); ++i) u[i] = Ku[i] / next;
-        length = 1;
-    }
-    return 2 / std::sqrt(omega2);
+    return 2 / std::sqrt(largestEigenvalue(K) / mass);
 }
 
 }  // namespace ispf

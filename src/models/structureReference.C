@@ -39,6 +39,15 @@ void checkImages(const structureReference& ref)
 
 }  // namespace
 
+List<std::uint16_t> structureReference::inverseImages() const
+{
+    List<std::uint16_t> inverse(images.size());
+    for (size_t m = 0; m < images.size(); ++m)
+        for (size_t k = 0; k < images.size(); ++k)
+            if (same(images[m].inverse(), images[k], dx)) inverse[m] = std::uint16_t(k);
+    return inverse;
+}
+
 void structureReference::check() const
 {
     if (nDims != 2 && nDims != 3)

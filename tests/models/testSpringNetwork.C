@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parallel.H"
+#include "solidBodies.H"
+
+#include <doctest/doctest.h>
+
+using namespace ispf;
+using namespace ispf::test;
+
+namespace
+{
+
+const scalar E = 1e6;
+
+List<scalar> flat(const List<vec4>& f, int nDims)
+{
+    List<scalar> a;
+    for (const vec4& v : f)
+        for (int d = 0; d < nDims; ++d) a.push_back(v[d]);
+    return a;
+}
+
+// Force by central differences of the energy, relative error over the largest force
+scalar forceError(const structureModel& model, List<vec4> x)
+{
+    const scalar step = 1e-6 * model.reference().dx;
+    List<vec4> f;
+    model.force(x, f);
+    scalar error = 0, most = 0;
+    for (label i = 0; i < model.n(); ++i)
+        for (int d = 0; d < model.reference().nDims; ++d)
+        {
+            const scalar at = x[i][d];
+            x[i][d] = at + step;
+            const scalar up = model.energy(x);
+            x[i][d] = at - step;
+            const scalar down = model.energy(x);
+            x[i][d] = at;
+            error = std::max(error, std::abs(f[i][d] + (up - down) / (2 * step)));
+            most = std::max(most, std::abs(f[i][d]));
+        }
+    return error / most;
+}
+
+// The tangent's columns by central differences of the force
+scalar tangentError(const structureModel& model, const List<vec4>& x)
+{
+    const scalar step = 1e-5 * model.reference().dx;
+    const int nDims = model.reference().nDims;
+    blockMatrix3 K = model.tangentPattern();
+    model.assembleTangent(x, tangentKind::full, K);
+    scalar error = 0, most = 0;
+    List<vec4> f, g, column(x.size()), unit(x.size());
+    for (label i = 0; i < model.n(); ++i)
+        for (int d = 0; d < nDims; ++d)
+        {
+            List<vec4> y = x;
+            y[i][d] = x[i][d] + step;
+            model.force(y, f);
+            y[i][d] = x[i][d] - step;
+            model.force(y, g);
+            for (vec4& v : unit) v = vec4::from(vector::Zero());
+            unit[i][d] = 1;
+            K.apply(unit, column);
+            for (label j = 0; j < model.n(); ++j)
+                for (int e = 0; e < nDims; ++e)
+                {
+                    error =
+                        std::max(error, std::abs(column[j][e] + (f[j][e] - g[j][e]) / (2 * step)));
+                    most = std::max(most, std::abs(column[j][e]));
+                }
+        }
+    return error / most;
+}
+
+Eigen::MatrixXd dense(const blockMatrix3& K)
+{
+    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(3 * K.size(), 3 * K.size());
+    for (label i = 0; i < K.size(); ++i)
+    {
+        D.block<3, 3>(3 * i, 3 * i) = K.diagonal[i];
+        for (label s = K.rowStart[i]; s < K.rowStart[i + 1]; ++s)
+            D.block<3, 3>(3 * i, 3 * K.column[s]) = K.value[s];
+    }
+    return D;
+}
+
+structureReference quarter(const structureReference& whole, const vector& centre)
+{
+    structureReference part = whole;
+    part.x0.clear(), part.fixed.clear();
+    for (label i = 0; i < whole.n(); ++i)
+        if (whole.x0[i][0] > centre[0] && whole.x0[i][1] > centre[1])
+            part.x0.push_back(whole.x0[i]), part.fixed.push_back(whole.fixed[i]);
+    const isometry mx = mirrorAt(0, centre[0]), my = mirrorAt(1, centre[1]);
+    part.images = {mx, my, {mx.R * my.R, mx.t + my.t}};
+    return part;
+}
+
+// Disordered and symmetric about x = y = 0: a disordered quarter and its reflections
+structureReference symmetricBody(scalar dx)
+{
+    structureReference ref = disorderedBlock(4, 4, 5, dx);
+    const size_t n = ref.x0.size();
+    for (const vector& sign : {vector(-1, 1, 1), vector(1, -1, 1), vector(-1, -1, 1)})
+        for (size_t i = 0; i < n; ++i)
+            ref.x0.push_back(sign.cwiseProduct(ref.x0[i])), ref.fixed.push_back(0);
+    return ref;
+}
+
+}  // namespace
+
+TEST_CASE("At rest a network has no force, no energy and carries no strain")
+{
+    const structureReference ref = disorderedBlock(5, 5, 4);
+    const auto model = springs(ref, "links radius; radius 2.1; E 1e6;");
+    List<vec4> f;
+    model->force(atRest(ref), f);
+    const scalar unit = E * ref.dx * ref.dx;
+    for (const vec4& v : f) CHECK(v.xyz().norm() < 1e-14 * unit);
+    CHECK(model->energy(atRest(ref)) < 1e-28 * unit * ref.dx);
+    CHECK(std::abs(model->strain(atRest(ref)).most) < 1e-14);
+    CHECK(model->maxLinkForce(atRest(ref)) < 1e-14 * unit);
+    CHECK(model->YoungsModulus() == doctest::Approx(E).epsilon(1e-14));
+}
+
+TEST_CASE("The force is the energy's derivative and balances in force and moment")
+{
+    for (const word links : {"links lattice18; k_e 1e6;", "links radius; radius 2.1; E 1e6;"})
+    {
+        const structureReference ref = latticeBlock(4, 4, 3);
+        const auto model = springs(ref, links);
+        const List<vec4> x = shaken(ref, 0.2 * ref.dx);
+        CHECK(forceError(*model, x) < 1e-7);
+        List<vec4> f;
+        model->force(x, f);
+        vector sum = vector::Zero(), moment = vector::Zero();
+        scalar size = 0;
+        for (size_t i = 0; i < f.size(); ++i)
+        {
+            sum += f[i].xyz(), moment += x[i].xyz().cross(f[i].xyz());
+            size += f[i].xyz().norm();
+        }
+        CHECK(sum.norm() < 1e-14 * size);
+        CHECK(moment.norm() < 1e-14 * size * 4 * ref.dx);
+    }
+}
+
+TEST_CASE("Rigid motions cost nothing")
+{
+    const structureReference ref = disorderedBlock(5, 4, 4);
+    const auto model = springs(ref, "links radius; radius 2.1; E 1e6;");
+    const tensor R = Eigen::AngleAxisd(1.1, vector(1, 2, 3).normalized()).toRotationMatrix();
+    const List<vec4> x = affine(ref, R, vector(0.1, 0.2, 0.3));
+    List<vec4> f;
+    model->force(x, f);
+    for (const vec4& v : f) CHECK(v.xyz().norm() < 1e-11 * E * ref.dx * ref.dx);
+}
+
+TEST_CASE("The full tangent is the force's derivative; the positive one has no negative eigenvalue")
+{
+    for (const bool images : {false, true})
+    {
+        CAPTURE(images);
+        structureReference ref = latticeBlock(4, 4, 3);
+        if (images) ref = quarter(symmetricBody(1e-3), vector::Zero());
+        const auto model = springs(ref, "links radius; radius 2.1; E 1e6;");
+        List<vec4> x = shaken(ref, 0.15 * ref.dx);
+        for (vec4& v : x) v.s *= 0.8;  // squeezed: also keeps the symmetry planes through 0
+        CHECK(tangentError(*model, x) < 1e-7);
+
+        blockMatrix3 K = model->tangentPattern();
+        model->assembleTangent(x, tangentKind::full, K);
+        const Eigen::MatrixXd full = dense(K);
+        CHECK((full - full.transpose()).norm() < 1e-13 * full.norm());
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> fullValues(full,
+                                                                        Eigen::EigenvaluesOnly);
+        // squeezed links make the full one indefinite, which is why it is not used
+        CHECK(fullValues.eigenvalues().minCoeff() < -1e-5 * fullValues.eigenvalues().maxCoeff());
+
+        model->assembleTangent(x, tangentKind::positive, K);
+        const Eigen::MatrixXd used = dense(K);
+        CHECK((used - used.transpose()).norm() < 1e-13 * used.norm());
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> usedValues(used,
+                                                                        Eigen::EigenvaluesOnly);
+        CHECK(usedValues.eigenvalues().minCoeff() > -1e-13 * usedValues.eigenvalues().maxCoeff());
+    }
+}
+
+TEST_CASE("Both tangents agree where every link is stretched")
+{
+    const structureReference ref = latticeBlock(4, 3, 3);
+    const auto model = springs(ref, "links lattice18; E 1e6;");
+    const List<vec4> x = affine(ref, 1.1 * tensor::Identity());
+    blockMatrix3 full = model->tangentPattern(), positive = full;
+    model->assembleTangent(x, tangentKind::full, full);
+    model->assembleTangent(x, tangentKind::positive, positive);
+    CHECK((dense(full) - dense(positive)).norm() == 0);
+}
+
+TEST_CASE("A quarter between two symmetry planes is a quarter of the whole")
+{
+    const structureReference whole = symmetricBody(1e-3), part = quarter(whole, vector::Zero());
+    for (const word links :
+         {"links radius; radius 2.1; E 1e6;", "links radius; radius 1.5; k_e 1e6;"})
+    {
+        CAPTURE(links);
+        const auto all = springs(whole, links), one = springs(part, links);
+        CHECK(one->shearModulus() == doctest::Approx(all->shearModulus()).epsilon(1e-10));
+        // any motion of the quarter, reflected
+        const List<vec4> x = shaken(part, 0.2 * part.dx);
+        List<vec4> y(x);
+        for (const vector& sign : {vector(-1, 1, 1), vector(1, -1, 1), vector(-1, -1, 1)})
+            for (const vec4& v : x) y.push_back(vec4::from(sign.cwiseProduct(v.xyz())));
+        List<vec4> f, g;
+        one->force(x, f);
+        all->force(y, g);
+        for (label i = 0; i < part.n(); ++i)
+            CHECK((f[i].xyz() - g[i].xyz()).norm() < 1e-8 * one->maxLinkForce(x));
+        CHECK(4 * one->energy(x) == doctest::Approx(all->energy(y)).epsilon(1e-9));
+        CHECK(forceError(*one, x) < 1e-6);
+        List<tensor> F, Fall;
+        one->deformationGradient(x, F);
+        all->deformationGradient(y, Fall);
+        for (label i = 0; i < part.n(); ++i) CHECK((F[i] - Fall[i]).norm() < 1e-12);
+    }
+}
+
+TEST_CASE("A cyclic block pulls like an endless one, also through turned images")
+{
+    // a sector of 90 degrees of a ring: the images are rotations, which change the force's
+    // direction
+    structureReference ref = emptyReference(3, 1e-3);
+    for (int k = 0; k < 3; ++k)
+        for (int a = 0; a < 8; ++a)
+            for (int r = 0; r < 3; ++r)
+            {
+                const scalar angle = M_PI / 16 * (a + 0.5), radius = (5 + r) * ref.dx;
+                ref.x0.push_back({radius * std::cos(angle), radius * std::sin(angle), k * ref.dx});
+            }
+    ref.fixed.assign(ref.x0.size(), 0);
+    structureReference ring = ref;
+    isometry turn;
+    turn.R = Eigen::AngleAxisd(M_PI / 2, vector::UnitZ()).toRotationMatrix();
+    ref.images = {turn, turn.inverse()};
+    const auto sector = springs(ref, "links radius; radius 1.7; k_e 1e6;");
+    const List<vec4> x = shaken(ref, 0.1 * ref.dx);
+    List<vec4> y;
+    ring.x0.clear();
+    isometry image;
+    for (int copy = 0; copy < 4; ++copy, image.R = turn.R * image.R)
+        for (label i = 0; i < ref.n(); ++i)
+            ring.x0.push_back(image(ref.x0[i])), y.push_back(vec4::from(image(x[i].xyz())));
+    ring.fixed.assign(ring.x0.size(), 0);
+    const auto whole = springs(ring, "links radius; radius 1.7; k_e 1e6;");
+    List<vec4> f, g;
+    sector->force(x, f);
+    whole->force(y, g);
+    for (label i = 0; i < ref.n(); ++i)
+        CHECK((f[i].xyz() - g[i].xyz()).norm() < 1e-9 * sector->maxLinkForce(x));
+    CHECK(forceError(*sector, x) < 1e-6);
+    CHECK(tangentError(*sector, x) < 1e-7);
+}
+
+TEST_CASE("Between clamped particles there is no link, towards free ones there is")
+{
+    structureReference ref = latticeBlock(4, 4, 4);
+    for (label i = 0; i < ref.n(); ++i) ref.fixed[i] = ref.x0[i][2] < 2 * ref.dx;
+    const auto model = springs(ref, "links lattice18; k_e 1e6;");
+    List<vec4> x = atRest(ref), f;
+    x[0][0] += 0.3 * ref.dx;  // clamped, its neighbours in the lowest two layers too
+    model->force(x, f);
+    for (label i = 0; i < ref.n(); ++i) CHECK(f[i].xyz().norm() == 0);
+    x = atRest(ref);
+    x[ref.n() - 1][0] += 0.3 * ref.dx;
+    model->force(x, f);
+    CHECK(f[ref.n() - 1].xyz().norm() > 0);
+}
+
+TEST_CASE("Results do not depend on the number of threads")
+{
+    const structureReference ref = latticeBlock(10, 10, 10);
+    setThreads(1);
+    const auto one = springs(ref, "links radius; radius 2.1; E 1e6;");
+    const List<vec4> x = shaken(ref, 0.1 * ref.dx);
+    List<vec4> f, g;
+    one->force(x, f);
+    const scalar energy = one->energy(x), step = one->stableTimeStep(x, 1e-6);
+    setThreads(2);
+    const auto two = springs(ref, "links radius; radius 2.1; E 1e6;");
+    two->force(x, g);
+    CHECK(flat(f, 3) == flat(g, 3));
+    CHECK(two->energy(x) == energy);
+    CHECK(two->stableTimeStep(x, 1e-6) == step);
+    setThreads(0);
+}
