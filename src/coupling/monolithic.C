@@ -62,7 +62,7 @@ private:
     solidSurface surface_;
     List<tensor> F_;
     List<vec4> springForce_;
-    structureTangent K_;
+    blockMatrix3 K_;
 };
 
 scalar monolithic::velocityScale() const
