@@ -21,7 +21,7 @@ USES_fileFormats     := core
 USES_operators       := particles linearSolvers
 USES_models          := operators
 USES_coupling        := models boundary fileFormats
-USES_functionObjects := models boundary fileFormats
+USES_functionObjects := coupling
 
 # Programs: one folder each, all its *.C.  They see every library; packages beyond the common ones:
 APPS := $(sort $(dir $(wildcard applications/solvers/*/*.C applications/utilities/*/*/*.C)))

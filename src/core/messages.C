@@ -91,7 +91,9 @@ word formatted(const fatalError& error)
 word validWords(const word& what, List<word> words)
 {
     std::sort(words.begin(), words.end());
-    return "Valid " + what + "s are: " + join(words);
+    const char last = what.empty() ? ' ' : what.back();
+    const char* plural = last == 's' ? "" : last == 'h' || last == 'x' ? "es" : "s";
+    return "Valid " + what + plural + " are: " + join(words);
 }
 
 word didYouMean(const word& given, const List<word>& known)

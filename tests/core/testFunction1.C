@@ -59,7 +59,7 @@ TEST_CASE("outOfBounds")
     CHECK(f->value(4) == Approx(2));
     CHECK(f->value(0) == Approx(2));
     CHECK(f->value(1002.5) == Approx(3));
-    CHECK_ERROR(with("wrap"), "Valid outOfBoundss are: clamp error repeat warn", 1);
+    CHECK_ERROR(with("wrap"), "Valid outOfBounds are: clamp error repeat warn", 1);
 }
 
 TEST_CASE("broken tables name file and line")

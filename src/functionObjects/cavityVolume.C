@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Volume enclosed by a surface that the solid carries along, closed over its opening; of the whole
+// body where symmetry planes cut it [m3].  surface: constant/triSurface/<surface>.stl, see
+// trackedSurface.H.
+//
+//     cavity { type cavityVolume; surface wall_to_chamber; }
+#include "functionObject.H"
+
+#include "dataFile.H"
+#include "trackedSurface.H"
+
+namespace ispf
+{
+
+namespace
+{
+
+class cavityVolume : public functionObject
+{
+public:
+    cavityVolume(const word& name, const dictionary& dict, const fsiCase& c)
+        : functionObject(name, c),
+          surface_(dict.get<word>("surface"), c),
+          rest_(surface_.restVolume()),
+          file_(startFolder() + "/cavityVolume.dat",
+                {"Volume inside " + surface_.name() + ", of the whole body [m3]",
+                 "at rest: " + str(rest_, 9)},
+                {"volume", "change", "changeOverRest"}, 9)
+    {
+    }
+
+    void write() override
+    {
+        surface_.update(case_.cloud.x);
+        const scalar volume = surface_.enclosedVolume();
+        file_.begin(case_.time.value()) << volume << volume - rest_ << (volume - rest_) / rest_;
+        file_.endRow();
+    }
+
+private:
+    trackedSurface surface_;
+    scalar rest_;
+    dataFile file_;
+};
+
+}  // namespace
+
+std::unique_ptr<functionObject> newCavityVolume(const word& name, const dictionary& dict,
+                                                const fsiCase& c)
+{
+    return std::make_unique<cavityVolume>(name, dict, c);
+}
+
+}  // namespace ispf

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fieldSampler.H"
+
+#include <cmath>
+#include <limits>
+
+namespace ispf
+{
+
+namespace
+{
+
+constexpr scalar none = std::numeric_limits<scalar>::quiet_NaN();
+
+}  // namespace
+
+fieldSampler::fieldSampler(const dictionary& dict, const fsiCase& c)
+    : case_(c),
+      chosen_(c.cloud, dict, "fluid"),
+      radius_(c.cloud.dx * dict.getInRangeOrDefault("radius", 1.2, 10, 2)),
+      images_(c.walls->images())
+{
+}
+
+// Chosen particles and images in the box
+void fieldSampler::gather(const vector& low, const vector& high, List<vector>& positions)
+{
+    const auto inside = [&](const vector& x) {
+        return (x.array() >= low.array()).all() && (x.array() <= high.array()).all();
+    };
+    sources_.clear();
+    for (label i = 0; i < case_.cloud.n(); ++i)
+    {
+        if (!chosen_(case_.cloud, i)) continue;
+        const vector x = case_.cloud.x[i].xyz();
+        if (inside(x)) positions.push_back(x), sources_.push_back({i, nullptr});
+        for (const structureImage& map : images_)
+            if (const vector y = map(x); inside(y))
+                positions.push_back(y), sources_.push_back({i, &map});
+    }
+}
+
+void fieldSampler::update(const List<vector>& points)
+{
+    weights_.assign(points.size(), {});
+    if (points.empty()) return;
+    vector low = points[0], high = points[0];
+    for (const vector& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    List<vector> positions;
+    gather(low.array() - radius_, high.array() + radius_, positions);
+    const pointSampler sampler(positions, radius_);
+    parallelFor(
+        label(points.size()),
+        [&](label begin, label end) {
+            for (label k = begin; k < end; ++k)
+            {
+                const pointSampler::neighbour nearest = sampler.nearest(points[k]);
+                if (nearest.index >= 0 && nearest.distance <= case_.cloud.dx)
+                    weights_[k] = sampler.weights(points[k]);
+            }
+        },
+        64);
+}
+
+scalar fieldSampler::sample(const particleField& f, size_t point) const
+{
+    if (weights_[point].empty()) return none;
+    scalar sum = 0;
+    for (const auto& c : weights_[point]) sum += c.weight * f.at(sources_[c.index].particle);
+    return sum;
+}
+
+vector fieldSampler::sampleVector(const particleField& f, size_t point) const
+{
+    if (weights_[point].empty()) return vector::Constant(none);
+    vector sum = vector::Zero();
+    for (const auto& c : weights_[point])
+    {
+        const source& s = sources_[c.index];
+        const vector v = f.vectorAt(s.particle);
+        sum += c.weight * (s.map ? vector(s.map->R * v) : v);
+    }
+    return sum;
+}
+
+List<scalar> fieldSampler::components(const particleField& f, size_t point) const
+{
+    if (!f.isVector()) return {sample(f, point)};
+    const vector v = sampleVector(f, point);
+    return {v[0], v[1], v[2]};
+}
+
+}  // namespace ispf

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "particleFields.H"
+
+namespace ispf
+{
+
+particleField::particleField(const particleCloud& cloud, const word& name,
+                             const fileLocation& where)
+    : name_(name)
+{
+    if (const auto s = cloud.scalars.find(name); s != cloud.scalars.end()) scalars_ = &s->second;
+    if (const auto v = cloud.vectors.find(name); v != cloud.vectors.end())
+        fours_ = &v->second, isVector_ = true;
+    if (name == "U" || name == "p") fours_ = &cloud.Up, isVector_ = name == "U";
+    if (scalars_ || fours_) return;
+    List<word> valid = {"U", "p"};
+    for (const auto& s : cloud.scalars) valid.push_back(s.first);
+    for (const auto& v : cloud.vectors) valid.push_back(v.first);
+    throw fatalError("There is no field '" + name + "'. " + validWords("field", valid), where);
+}
+
+List<word> particleField::titles() const
+{
+    if (!isVector_) return {name_};
+    return {name_ + "_x", name_ + "_y", name_ + "_z"};
+}
+
+List<particleField> fieldsOf(const particleCloud& cloud, const dictionary& dict)
+{
+    List<particleField> fields;
+    for (const word& name : dict.getOrDefault<List<word>>("fields", {"U", "p"}))
+        fields.emplace_back(cloud, name, dict.where("fields"));
+    return fields;
+}
+
+particleSelection::particleSelection(const particleCloud& cloud, const dictionary& dict,
+                                     const word& defaultPhase)
+    : zone_(cloud.zones.size(), 0)
+{
+    const word phase = dict.chooseOrDefault("phase", {"fluid", "solid", "all"}, defaultPhase);
+    if (dict.found("zones"))
+    {
+        if (dict.found("phase")) dict.fail("zones", "Give either zones or phase, not both.");
+        for (const word& name : dict.get<List<word>>("zones")) zone_[cloud.zoneIndex(name)] = 1;
+        return;
+    }
+    for (size_t z = 0; z < cloud.zones.size(); ++z)
+        zone_[z] =
+            phase == "all" || (phase == "fluid") == (cloud.zones[z].phase == phaseType::fluid);
+}
+
+}  // namespace ispf

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Volume flow, of the whole body where symmetry planes cut it [m3/s]:
+//
+//     outflow { type patchFlux; patch outside; }      // a patch of constant/boundary
+//     nozzle  { type patchFlux; surface nozzleExit; zones (chamber); }   // any surface in the fluid
+//
+// patch: what has crossed it by the boundary's own books, whole particles or a moving wall's sweep:
+//     `volume` since the case began and `flux`, its mean rate since the row before; out is positive.
+// surface: the integral of U.n over constant/triSurface/<surface>.stl, U fitted to the particles at
+//     the middle of each triangle; positive along the triangles' normals.  `covered` is the share of
+//     its area that particles are near enough to; the rest counts nothing.
+#include "functionObject.H"
+
+#include "dataFile.H"
+#include "fieldSampler.H"
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+class balancedFlux : public functionObject
+{
+public:
+    balancedFlux(const word& name, const dictionary& dict, const fsiCase& c)
+        : functionObject(name, c),
+          patch_(dict.get<word>("patch")),
+          file_(startFolder() + "/patchFlux.dat",
+                {"Volume through patch " + patch_ + ", out positive"}, {"flux", "volume"}, 9)
+    {
+        List<word> names;
+        for (const patchBalance& b : c.walls->balance()) names.push_back(b.name);
+        if (std::find(names.begin(), names.end(), patch_) == names.end())
+            dict.fail("patch", "There is no patch '" + patch_ + "'. " + validWords("patch", names));
+        lastTime_ = c.time.value(), lastVolume_ = volume();
+    }
+
+    void write() override
+    {
+        const scalar now = case_.time.value(), v = volume();
+        const scalar flux = now > lastTime_ ? (v - lastVolume_) / (now - lastTime_) : 0;
+        file_.begin(now) << flux << v;
+        file_.endRow();
+        lastTime_ = now, lastVolume_ = v;
+    }
+
+private:
+    scalar volume() const
+    {
+        for (const patchBalance& b : case_.walls->balance())
+            if (b.name == patch_)
+                return -case_.walls->symmetryFactor() *
+                       (b.swept + (b.created - b.deleted) * case_.cloud.volume());
+        return 0;
+    }
+
+    word patch_;
+    dataFile file_;
+    scalar lastTime_ = 0, lastVolume_ = 0;
+};
+
+class sampledFlux : public functionObject
+{
+public:
+    sampledFlux(const word& name, const dictionary& dict, const fsiCase& c)
+        : functionObject(name, c),
+          surface_(
+              readSTL(c.time.constantFile("triSurface/" + dict.get<word>("surface") + ".stl"))),
+          U_(c.cloud, "U", dict.where()),
+          sampler_(dict, c),
+          file_(startFolder() + "/patchFlux.dat",
+                {"Flow through the surface " + dict.get<word>("surface") + ", along its normals"},
+                {"flux", "covered"}, 9)
+    {
+        if (!(surface_.area() > 0)) dict.fail("surface", "This surface has no area.");
+        for (label t = 0; t < surface_.size(); ++t) centres_.push_back(surface_.centre(t));
+    }
+
+    void write() override
+    {
+        sampler_.update(centres_);
+        scalar flux = 0, covered = 0;
+        for (label t = 0; t < surface_.size(); ++t)
+        {
+            const vector U = sampler_.sampleVector(U_, t), area = surface_.areaVector(t);
+            if (std::isnan(U[0])) continue;
+            flux += U.dot(area), covered += area.norm();
+        }
+        file_.begin(case_.time.value())
+            << flux * case_.walls->symmetryFactor() << covered / surface_.area();
+        file_.endRow();
+    }
+
+private:
+    triSurface surface_;
+    List<vector> centres_;
+    particleField U_;
+    fieldSampler sampler_;
+    dataFile file_;
+};
+
+}  // namespace
+
+std::unique_ptr<functionObject> newPatchFlux(const word& name, const dictionary& dict,
+                                             const fsiCase& c)
+{
+    const bool patch = dict.found("patch");
+    if (patch == dict.found("surface"))
+        throw fatalError("patchFlux wants either a patch or a surface.", dict.where());
+    if (patch) return std::make_unique<balancedFlux>(name, dict, c);
+    return std::make_unique<sampledFlux>(name, dict, c);
+}
+
+}  // namespace ispf

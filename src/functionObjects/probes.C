@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fields at fixed points, over time; one file a field, as OpenFOAM's probes:
+//
+//     chamber { type probes; fields (p U); probeLocations ((0 0 10e-3)); zones (chamber); }
+//
+// fields: U p (default) or what a model has registered.  zones, radius: see fieldSampler.H.  A probe
+// with no particle nearer than dx reads NaN.
+#include "functionObject.H"
+
+#include "dataFile.H"
+#include "fieldSampler.H"
+#include "fileNames.H"
+#include <fstream>
+
+namespace ispf
+{
+
+namespace
+{
+
+constexpr size_t width = 14;
+
+word aligned(const word& text, size_t w)
+{
+    return word(text.size() < w ? w - text.size() : 1, ' ') + text;
+}
+
+class probes : public functionObject
+{
+public:
+    probes(const word& name, const dictionary& dict, const fsiCase& c)
+        : functionObject(name, c),
+          points_(dict.get<List<vector>>("probeLocations")),
+          fields_(fieldsOf(c.cloud, dict)),
+          sampler_(dict, c),
+          files_(fields_.size())
+    {
+        if (points_.empty()) dict.fail("probeLocations", "At least one point (x y z) is wanted.");
+    }
+
+    void write() override
+    {
+        sampler_.update(points_);
+        for (size_t f = 0; f < fields_.size(); ++f)
+        {
+            if (!files_[f].is_open()) open(f);
+            files_[f] << aligned(str(case_.time.value(), 12), width);
+            for (size_t k = 0; k < points_.size(); ++k) files_[f] << value(fields_[f], k);
+            files_[f] << std::endl;
+            if (!files_[f])
+                throw fatalError("Cannot write " + startFolder() + "/" + fields_[f].name() + ".");
+        }
+    }
+
+private:
+    size_t columnWidth(const particleField& f) const
+    {
+        return f.isVector() ? 3 * width + 2 : width;
+    }
+
+    word value(const particleField& f, size_t k) const
+    {
+        word text;
+        for (const scalar v : sampler_.components(f, k))
+            text += (text.empty() ? "" : " ") + scientific(v, 6);
+        return aligned(f.isVector() ? "(" + text + ")" : text, columnWidth(f));
+    }
+
+    void open(size_t f)
+    {
+        const word path = startFolder() + "/" + fields_[f].name();
+        word header, numbers = "#" + aligned("Probe", width - 1);
+        for (size_t k = 0; k < points_.size(); ++k)
+        {
+            header += "# Probe " + std::to_string(k) + " (" + str(points_[k][0]) + " " +
+                      str(points_[k][1]) + " " + str(points_[k][2]) + ")\n";
+            numbers += aligned(std::to_string(k), columnWidth(fields_[f]));
+        }
+        writeText(path, header + numbers + "\n#" + aligned("Time", width - 1) + "\n");
+        files_[f].open(path, std::ios::app);
+    }
+
+    List<vector> points_;
+    List<particleField> fields_;
+    fieldSampler sampler_;
+    List<std::ofstream> files_;
+};
+
+}  // namespace
+
+std::unique_ptr<functionObject> newProbes(const word& name, const dictionary& dict,
+                                          const fsiCase& c)
+{
+    return std::make_unique<probes>(name, dict, c);
+}
+
+}  // namespace ispf

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// cavityVolume and zoneDiameter on a shell that is a cylinder closed by a half sphere
+#include "core/errorOf.H"
+#include "roundSurfaces.H"
+#include "testCase.H"
+
+using namespace ispf;
+using doctest::Approx;
+
+namespace
+{
+
+constexpr scalar R = 10e-3, length = 20e-3;
+
+// Quarter of the shell: two layers of particles about R + dx/2 and R + 3 dx/2, bodyfitted
+struct shell : testCase
+{
+    shell()
+    {
+        for (int layer = 0; layer < 3; ++layer)
+        {
+            const scalar r = R + (layer + 0.5) * dx;
+            const label n = label(0.5 * M_PI * r / dx);
+            for (scalar z = 0.5 * dx; z < length; z += dx) ring(r, z, n);
+            for (label k = 0; k < n; ++k)
+            {
+                const scalar up = 0.5 * M_PI * (k + 0.5) / n, rr = r * std::cos(up);
+                ring(rr, length + r * std::sin(up),
+                     std::max(1, label(std::lround(0.5 * M_PI * rr / dx))));
+            }
+        }
+        boundary =
+            "symX { type symmetryPlane; point (0 0 0); normal (-1 0 0); }"
+            "symY { type symmetryPlane; point (0 0 0); normal (0 -1 0); }";
+        inner = tube(R, length, 16, 20, 0.5 * M_PI);
+        inner.append(dome(R, 16, 16, length, 0.5 * M_PI));
+        inner.weld(1e-9);
+        std::filesystem::create_directories(path + "/constant/triSurface");
+        writeSTL(inner, path + "/constant/triSurface/inner.stl");
+    }
+
+    void ring(scalar r, scalar z, label n)
+    {
+        for (label k = 0; k < n; ++k)
+        {
+            const scalar angle = 0.5 * M_PI * (k + 0.5) / n;
+            add("wall", "solid", {r * std::cos(angle), r * std::sin(angle), z});
+        }
+    }
+
+    // Volume below the facets, closed by the plane z = 0, of the whole body
+    scalar facetVolume() const
+    {
+        scalar v = 0;
+        for (label t = 0; t < inner.size(); ++t)
+            v += inner.corner(t, 0).dot(inner.areaVector(t)) / 3;
+        return 4 * std::abs(v);
+    }
+
+    triSurface inner;
+};
+
+void deform(particleCloud& cloud, const std::function<vector(const vector&)>& map)
+{
+    for (label i = 0; i < cloud.nSolid(); ++i) cloud.x[i].setXyz(map(cloud.x[i].xyz()));
+}
+
+const word both =
+    "volume { type cavityVolume; surface inner; }"
+    "diameter { type zoneDiameter; surface inner; point (0 0 10.3e-3); axis (0 0 1); nAngles 720; "
+    "}";
+
+}  // namespace
+
+TEST_CASE("the shell at rest: volume and diameter of the shape, up to its facets")
+{
+    shell s;
+    s.functions = both;
+    auto r = s.start();
+    functionObjectList f(*r.c);
+    f.start();
+    const auto v = s.rows("volume/0/cavityVolume.dat").at(0);
+    CHECK(v[1] == Approx(s.facetVolume()).epsilon(1e-8));
+    CHECK(v[1] == Approx(M_PI * R * R * length + 2 * M_PI * R * R * R / 3).epsilon(3e-3));
+    CHECK(std::abs(v[2]) < 1e-8 * v[1]);
+    const auto d = s.rows("diameter/0/zoneDiameter.dat").at(0);
+    CHECK(d[1] == Approx(2 * R).epsilon(1e-3));
+    CHECK(std::abs(d[2]) < 1e-8);
+    CHECK(d[4] <= 2 * R * (1 + 1e-9));
+    CHECK(s.output("diameter/0/zoneDiameter.dat")
+              .find("# Time        \tdiameter\tdDoverD\tmin\tmax\n") != word::npos);
+}
+
+TEST_CASE("an affine motion is followed exactly: volume by the determinant, diameters by the axes")
+{
+    shell s;
+    s.functions = both;
+    auto r = s.start();
+    const tensor F = vector(1.3, 1.1, 1.2).asDiagonal();
+    deform(r.c->cloud, [&](const vector& x) { return vector(F * x); });
+    functionObjectList f(*r.c);
+    f.start();
+    const auto v = s.rows("volume/0/cavityVolume.dat").at(0);
+    CHECK(v[1] == Approx(F.determinant() * s.facetVolume()).epsilon(1e-7));
+    CHECK(v[3] == Approx(F.determinant() - 1).epsilon(1e-6));
+    const auto d = s.rows("diameter/0/zoneDiameter.dat").at(0);
+    CHECK(d[3] == Approx(2.2 * R).epsilon(1e-3));
+    CHECK(d[4] == Approx(2.6 * R).epsilon(1e-3));
+}
+
+TEST_CASE("inflation at constant wall volume: rho = sqrt(r^2 + c)")
+{
+    // The vertices lie half a spacing inside the particles they follow: the curvature of the motion
+    // over that distance is the error
+    shell s;
+    s.functions =
+        "diameter { type zoneDiameter; surface inner; point (0 0 10.3e-3); axis (0 0 1);"
+        "band 2e-3; }";
+    auto r = s.start();
+    const scalar c = 0.3 * R * R;
+    deform(r.c->cloud, [&](const vector& x) {
+        const scalar rr = std::hypot(x[0], x[1]), grow = std::sqrt(rr * rr + c) / rr;
+        return vector(grow * x[0], grow * x[1], x[2]);
+    });
+    functionObjectList f(*r.c);
+    f.start();
+    const auto d = s.rows("diameter/0/zoneDiameter.dat").at(0);
+    CHECK(d[2] == Approx(std::sqrt(1.3) - 1).epsilon(0.01));
+    CHECK(d[4] / d[3] < 1.005);
+}
+
+TEST_CASE("surfaces and planes that do not fit are refused")
+{
+    shell s;
+    const auto with = [&](const word& functions) {
+        s.functions = functions;
+        auto r = s.start();
+        functionObjectList f(*r.c);
+    };
+    CHECK_ERROR(with("d { type zoneDiameter; surface inner; point (0 0 0.1); axis (0 0 1); }"),
+                "does not cut the surface inner", 0);
+    CHECK_ERROR(with("d { type zoneDiameter; surface inner; point (1e-3 1e-3 10e-3); axis (0 0 1); }"),
+                "two opposite sides", 0);
+    CHECK_ERROR(with("d { type zoneDiameter; surface inner; point (0 0 0.01); axis (0 0 0); }"),
+                "no direction", 0);
+    CHECK_ERROR(with("d { type cavityVolume; surface outer; }"), "outer.stl", 0);
+}
