@@ -2,6 +2,7 @@
 // Incompressible SPH for fluid and elastic solid in one system.
 #include "argList.H"
 #include "couplingScheme.H"
+#include "functionObjectList.H"
 #include "progress.H"
 #include "volumeLedger.H"
 
@@ -34,9 +35,11 @@ int run(const argList& args)
     const auto coupling = couplingScheme::New(c);
     volumeLedger ledger(c);
     c.report();
+    functionObjectList functions(c);
     progress bar(time);
 
     info() << "\nStarting time loop\n\n";
+    functions.start();
     while (time.run())
     {
         const couplingScheme::stepLimit limit = coupling->limit();
@@ -47,12 +50,14 @@ int run(const argList& args)
 
         coupling->step(t0, time.deltaT());
         ledger.update(time.deltaT());
+        functions.execute();
         if (time.writeTime()) c.write();
 
         info() << "ExecutionTime = " << str(time.elapsedCpuTime(), 4)
                << " s  ClockTime = " << str(time.elapsedClockTime(), 4) << " s\n\n";
         bar.update(limit.rule + " limit " + str(limit.dt, 3) + " s");
     }
+    functions.end();
     info() << "End\n";
     return 0;
 }
