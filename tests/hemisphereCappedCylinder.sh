@@ -45,4 +45,20 @@ awk '{ q[$1] = $2 } function near(name, v, d) { if ((q[name] - v)^2 > d*d) { pri
           near("TDC.ringRadius", 10/sqrt(2), 0.13); near("TDC.fastestInChamber", 2, 1e-4)
           near("TDC.lineTop", 2, 1e-4); near("TDC.linePeakOverMean", 1/(1 - 2/12), 0.02); exit bad }' \
     "$scratch/map" || fail "quantities of a map"
+
+# Histories of two cycles with known peaks: a second cycle 1 % lower, 2 % of the stroke lost at the top
+for file in diameter volume pressure; do
+    awk -v file=$file 'BEGIN { for (i = 0; i <= 200; ++i) {
+        t = 0.1*i; phase = t - 10*int(t/10 + 1e-9); s = phase < 4 ? phase/4 : phase < 8 ? 2 - phase/4 : 0
+        if (file == "diameter") print t, 0.14*s*(t <= 10 ? 1 : 0.99)
+        if (file == "volume") print t, 2*s, 2*s*0.98 + 0.001*(t > 9), -0.01*s
+        if (file == "pressure") print t, 0.07*s } }' > "$scratch/$file.dat"
+done
+awk -v period=10 -v top=4 -v stroke=2 -v rest=8 -v wall=5 -f validation/awk/history.awk \
+    "$scratch"/{diameter,volume,pressure}.dat > "$scratch/history"
+awk '{ q[$1] = $2 } function near(name, v) { if ((q[name] - v)^2 > 1e-8) { print "  " name, q[name], v; bad = 1 } }
+    END { near("dDPeak", 14); near("cycleDifference", 1); near("volumeIncrease", 24.5125)
+          near("volumeDefectPeak", -1.95); near("volumeDefectEnd", 0.05); near("wallVolumeChange", -0.2)
+          near("pressurePeak", 0.07); near("syringeDiameter", 16); exit bad }' \
+    "$scratch/history" || fail "quantities of the histories"
 [ $failures = 0 ]
