@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cellAggregation.H"
 
+#include "disjointSets.H"
 #include <algorithm>
 #include <array>
 
@@ -56,12 +57,6 @@ buckets sortByCell(const List<float4>& point, float cellSize)
     return sorted;
 }
 
-label findRoot(List<label>& parent, label i)
-{
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 // Joins the connected rows at the places [begin, end); the root of a set is its first place
 void joinBucket(const multigridLevel& level, const buckets& sorted, label begin, label end,
                 List<label>& parent)
@@ -70,17 +65,12 @@ void joinBucket(const multigridLevel& level, const buckets& sorted, label begin,
     for (label p = begin; p < end && nSets > 1; ++p)
     {
         const label i = sorted.row[p];
-        for (label k = level.rowStart[i]; k < level.rowStart[i + 1]; ++k)
-        {
-            const label j = level.column[k], q = sorted.place[j];
-            if (q < begin || q >= end || level.value[k] == 0 || !level.follows(i, j) ||
-                !level.follows(j, i))
-                continue;
-            const label a = findRoot(parent, p), b = findRoot(parent, q);
-            if (a == b) continue;
-            parent[std::max(a, b)] = std::min(a, b);
-            --nSets;
-        }
+        level.A.forRow(i, [&](label j, float) {
+            const label q = sorted.place[j];
+            if (q < begin || q >= end) return;
+            if (!level.follows(i, j) || !level.follows(j, i)) return;
+            nSets -= join(parent, p, q);
+        });
     }
 }
 
@@ -99,7 +89,7 @@ cellAggregates aggregateByCell(const multigridLevel& level, float cellSize)
             for (label p = begin; p < end; ++p) parent[p] = p;
             joinBucket(level, sorted, begin, end, parent);
             for (label p = begin; p < end; ++p)
-                nSets[c + 1] += parent[p] == p && !level.alone(sorted.row[p]);
+                nSets[c + 1] += parent[p] == p && level.A.hasEntries(sorted.row[p]);
         }
     });
     for (label c = 0; c < nBuckets; ++c) nSets[c + 1] += nSets[c];
@@ -112,8 +102,8 @@ cellAggregates aggregateByCell(const multigridLevel& level, float cellSize)
         for (label p = sorted.start[c]; p < sorted.start[c + 1]; ++p)
         {
             const label i = sorted.row[p];
-            if (parent[p] != p) result.of[i] = result.of[sorted.row[findRoot(parent, p)]];
-            else if (!level.alone(i)) result.of[i] = next++;
+            if (parent[p] != p) result.of[i] = result.of[sorted.row[representative(parent, p)]];
+            else if (level.A.hasEntries(i)) result.of[i] = next++;
             if (result.of[i] >= 0) ++result.start[result.of[i] + 1];
         }
     for (label a = 0; a < result.n; ++a) result.start[a + 1] += result.start[a];

@@ -2,6 +2,7 @@
 #include "cellMultigrid.H"
 
 #include "blockSums.H"
+#include "cellTransfer.H"
 #include "coarsening.H"
 #include <algorithm>
 
@@ -43,6 +44,18 @@ float* flat(List<V>& v, size_t i)
     return reinterpret_cast<float*>(v.data() + i);
 }
 
+// x = factor b, entry by entry
+template <class V>
+void scale(const List<float>& factor, const List<V>& b, List<V>& x)
+{
+    parallelFor(
+        label(x.size()),
+        [&](label i, label e) {
+            for (; i < e; ++i) x[i] = factor[i] * b[i];
+        },
+        levelGrain);
+}
+
 template <class V>
 constexpr label lanes = sizeof(V) / sizeof(float);
 
@@ -79,49 +92,10 @@ struct cellMultigrid::workspace
     {
         for (size_t l = 0; l < levels.size(); ++l)
         {
-            const label n = levels[l].size();
+            const label n = slicedMatrix::padded(levels[l].size());
             for (List<V>* v : {&at[l].b, &at[l].x, &at[l].r}) v->resize(n);
             if (kCycle && l > 0) at[l].c.resize(n), at[l].v.resize(n);
         }
-    }
-};
-
-// Dense factors of the rows that are coupled to others; the rest are diagonal
-struct cellMultigrid::coarsestSolver
-{
-    List<label> row;
-    Eigen::PartialPivLU<Eigen::MatrixXd> factors;
-
-    coarsestSolver(const multigridLevel& A, const List<label>& pinned)
-    {
-        List<label> number(A.size(), -1);
-        for (label i = 0; i < A.size(); ++i)
-            if (!A.alone(i)) number[i] = label(row.size()), row.push_back(i);
-        Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(row.size(), row.size());
-        for (size_t k = 0; k < row.size(); ++k)
-        {
-            const label i = row[k];
-            dense(k, k) += A.diagonal[i];
-            for (label e = A.rowStart[i]; e < A.rowStart[i + 1]; ++e)
-                if (number[A.column[e]] >= 0) dense(k, number[A.column[e]]) += A.value[e];
-        }
-        // A floating part is held at one row: with a compatible right-hand side this is exact
-        for (const label i : pinned)
-            if (number[i] >= 0) dense(number[i], number[i]) += A.diagonal[i];
-        if (!row.empty()) factors.compute(dense);
-    }
-
-    template <class V>
-    void solve(const multigridLevel& A, const List<V>& b, List<V>& x) const
-    {
-        smoothZero(A, b, x);
-        if (row.empty()) return;
-        Eigen::MatrixXd rhs(row.size(), lanes<V>);
-        for (size_t k = 0; k < row.size(); ++k)
-            for (int c = 0; c < lanes<V>; ++c) rhs(k, c) = flat(b, row[k])[c];
-        rhs = factors.solve(rhs);
-        for (size_t k = 0; k < row.size(); ++k)
-            for (int c = 0; c < lanes<V>; ++c) flat(x, row[k])[c] = float(rhs(k, c));
     }
 };
 
@@ -158,8 +132,8 @@ List<label> cellMultigrid::levelSizes() const
     return sizes;
 }
 
-// The finest level borrows the pattern of A; values become float, divided by the mean diagonal so
-// that they stay far from the ends of its range
+// Values become float, divided by the mean diagonal so that they stay far from the ends of its
+// range
 void cellMultigrid::buildFinest(const csrMatrix& A, const List<vector>& x,
                                 const List<std::uint8_t>& group)
 {
@@ -170,30 +144,25 @@ void cellMultigrid::buildFinest(const csrMatrix& A, const List<vector>& x,
         return Eigen::Map<const Eigen::ArrayXd>(&A.diagonal[i], e - i).abs().sum();
     });
     matrixScale_ = sum > 0 ? sum / n : 1;
-    f.rowStart = A.rowStart.data(), f.column = A.column.data();
-    f.value.resize(A.nEntries()), f.diagonal.resize(n), f.excess.resize(n), f.point.resize(n);
+    const scalar scale = 1 / matrixScale_;
+    f.A = slicedMatrix(n, A.rowStart.data(), A.column.data(), A.value.data(), float(scale));
+    f.excess.resize(n), f.weight.resize(n), f.point.resize(n);
+    f.nRows.assign(n, 1);
+    f.group = group.empty() ? List<std::uint8_t>(n, 0) : group;
     vector corner = vector::Zero();
     if (n > 0) corner = x[0];
     for (const vector& p : x) corner = corner.cwiseMin(p);
     parallelFor(n, [&](label begin, label end) {
-        const scalar scale = 1 / matrixScale_;
         for (label i = begin; i < end; ++i)
         {
             scalar rowSum = A.diagonal[i];
-            for (label k = A.rowStart[i]; k < A.rowStart[i + 1]; ++k)
-            {
-                rowSum += A.value[k];
-                f.value[k] = float(scale * A.value[k]);
-            }
-            f.diagonal[i] = float(scale * A.diagonal[i]);
+            for (label k = A.rowStart[i]; k < A.rowStart[i + 1]; ++k) rowSum += A.value[k];
+            f.A.diagonal()[i] = f.weight[i] = float(scale * A.diagonal[i]);
             f.excess[i] = float(scale * rowSum);
             const vector p = x[i] - corner;
             f.point[i] = float4{float(p[0]), float(p[1]), float(p[2]), 0};
         }
     });
-    f.weight = f.diagonal;
-    f.nRows.assign(n, 1);
-    f.group = group.empty() ? List<std::uint8_t>(n, 0) : group;
 }
 
 void cellMultigrid::buildLevels()
@@ -201,14 +170,17 @@ void cellMultigrid::buildLevels()
     float extent = 0;
     for (const float4& p : level_[0].point) extent = std::max({extent, p[0], p[1], p[2]});
     float cellSize = float(options_.cellSize);
-    level_.reserve(64);
     while (level_.back().size() > options_.coarsestSize)
     {
-        multigridLevel& fine = level_.back();
-        cellAggregates aggregates = aggregateByCell(fine, cellSize);
+        cellAggregates aggregates = aggregateByCell(level_.back(), cellSize);
         const bool useful = aggregates.n <= worthwhile * aggregates.member.size();
         if (useful && !aggregates.member.empty())
-            level_.push_back(coarsen(fine, aggregates, cellSize));
+        {
+            multigridLevel coarse = coarsen(level_.back(), aggregates, cellSize);
+            transfer_.emplace_back(level_.back(), aggregates, coarse, cellSize);
+            level_.back().aggregate = std::move(aggregates.of);
+            level_.push_back(std::move(coarse));
+        }
         else if (cellSize > 2 * extent) break;  // nothing left to join
         cellSize *= 2;
     }
@@ -218,12 +190,16 @@ void cellMultigrid::buildLevels()
 void cellMultigrid::buildNullSpace()
 {
     const multigridLevel& last = level_.back();
+    List<csrMatrix::triplet> entries;
+    for (label i = 0; i < last.size(); ++i)
+        last.A.forRow(i, [&](label j, float value) { entries.push_back({i, j, value}); });
     List<label> set, pinned;
-    const rowGraph<float> graph{last.size(), last.rowStart, last.column, last.value.data()};
-    label nSets = floatingSets(graph, last.excess, last.weight, set);
+    label nSets = floatingSets(csrMatrix::fromTriplets(last.size(), entries),
+                               {last.excess.begin(), last.excess.end()},
+                               {last.weight.begin(), last.weight.end()}, set);
     for (label i = 0, next = 0; i < last.size(); ++i)
         if (set[i] == next) pinned.push_back(i), ++next;
-    coarsest_ = std::make_unique<coarsestSolver>(last, pinned);
+    coarsest_ = std::make_unique<coarsestSolver>(last.A, pinned);
 
     for (label l = label(level_.size()) - 2; l >= 0; --l)
     {
@@ -237,16 +213,23 @@ void cellMultigrid::buildNullSpace()
     nullSpace_ = constantNullSpace(std::move(set), nSets);
 }
 
+// Jacobi factors over the diagonal; a row without neighbours is solved exactly, or left alone where
+// nothing determines it
 void cellMultigrid::setRelaxation()
 {
-    for (multigridLevel& f : level_)
+    for (const multigridLevel& f : level_)
     {
-        f.relax.resize(f.size());
-        parallelFor(f.size(), [&](label begin, label end) {
-            for (label i = begin; i < end; ++i)
-                if (!f.alone(i)) f.relax[i] = float(options_.omega) / f.diagonal[i];
-                else f.relax[i] = isFloating(f.excess[i], f.weight[i]) ? 0 : 1 / f.diagonal[i];
-        });
+        relax_.emplace_back(slicedMatrix::padded(f.size()), 0);
+        parallelFor(
+            f.size(),
+            [&](label i, label end) {
+                for (; i < end; ++i)
+                    if (f.A.hasEntries(i))
+                        relax_.back()[i] = float(options_.omega) / f.A.diagonal()[i];
+                    else if (!isFloating(f.excess[i], f.weight[i]))
+                        relax_.back()[i] = 1 / f.A.diagonal()[i];
+            },
+            levelGrain);
     }
 }
 
@@ -254,15 +237,15 @@ void cellMultigrid::setRelaxation()
 template <class V>
 void cellMultigrid::cycle(workspace<V>& work, label l) const
 {
-    const multigridLevel& A = level_[l];
+    const slicedMatrix& A = level_[l].A;
     auto& w = work.at[l];
-    if (l + 1 == label(level_.size())) return coarsest_->solve(A, w.b, w.x);
-    smoothZero(A, w.b, w.x);
-    residual(A, w.b, w.x, w.r);
-    restrictTo(A, w.r, work.at[l + 1].b);
+    scale(relax_[l], w.b, w.x);
+    if (l + 1 == label(level_.size())) return coarsest_->solve(w.b, w.x);
+    A.residual(w.b, w.x, w.r);
+    transfer_[l].restrictTo(w.r, work.at[l + 1].b);
     solveCoarse(work, l + 1);
-    prolongAdd(A, work.at[l + 1].x, w.x);
-    smooth(A, w.b, w.x, w.r);
+    transfer_[l].prolongAdd(work.at[l + 1].x, w.x);
+    A.smooth(relax_[l], w.b, w.x, w.r);
     w.x.swap(w.r);
 }
 
@@ -275,11 +258,11 @@ void cellMultigrid::solveCoarse(workspace<V>& work, label l) const
     if (options_.cycle == "V" || l + 1 == label(level_.size())) return;
     constexpr scalar goodEnough = 0.25;
 
-    const multigridLevel& A = level_[l];
+    const slicedMatrix& A = level_[l].A;
     const label n = A.size();
     auto& w = work.at[l];
     w.c.swap(w.x);
-    multiply(A, w.c, w.v);
+    A.multiply(w.c, w.v);
     const auto first = blockSums(n, 3, [&](label i, label e, scalar* sum) {
         sum[0] = dotRange(w.c, w.v, i, e);
         sum[1] = dotRange(w.c, w.b, i, e);
@@ -293,7 +276,7 @@ void cellMultigrid::solveCoarse(workspace<V>& work, label l) const
     if (rr[0] <= goodEnough * goodEnough * first[2]) return combine(alpha, w.c, 0, w.x);
 
     cycle(work, l);
-    multiply(A, w.x, w.r);
+    A.multiply(w.x, w.r);
     const auto second = blockSums(n, 3, [&](label i, label e, scalar* sum) {
         sum[0] = dotRange(w.x, w.v, i, e);
         sum[1] = dotRange(w.x, w.r, i, e);

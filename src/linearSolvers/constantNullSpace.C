@@ -1,58 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "constantNullSpace.H"
 
+#include "disjointSets.H"
 #include <numeric>
 
 namespace ispf
 {
 
-namespace
-{
-
-label findRoot(List<label>& parent, label i)
-{
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
-}  // namespace
-
-template <class Real>
-label floatingSets(const rowGraph<Real>& graph, const List<Real>& excess, const List<Real>& weight,
+label floatingSets(const csrMatrix& A, const List<scalar>& excess, const List<scalar>& weight,
                    List<label>& set)
 {
-    List<label> parent(graph.n);
+    List<label> parent(A.size());
     std::iota(parent.begin(), parent.end(), 0);
-    for (label i = 0; i < graph.n; ++i)
-        for (label k = graph.rowStart[i]; k < graph.rowStart[i + 1]; ++k)
-            if (graph.value[k] != 0)
-            {
-                const label a = findRoot(parent, i), b = findRoot(parent, graph.column[k]);
-                if (a != b) parent[std::max(a, b)] = std::min(a, b);
-            }
+    for (label i = 0; i < A.size(); ++i)
+        for (label k = A.rowStart[i]; k < A.rowStart[i + 1]; ++k)
+            if (A.value[k] != 0) join(parent, i, A.column[k]);
 
-    List<scalar> setExcess(graph.n, 0), setWeight(graph.n, 0);
-    set.assign(graph.n, -1);
-    for (label i = 0; i < graph.n; ++i)
+    List<scalar> setExcess(A.size(), 0), setWeight(A.size(), 0);
+    set.assign(A.size(), -1);
+    for (label i = 0; i < A.size(); ++i)
     {
-        const label root = findRoot(parent, i);
+        const label root = representative(parent, i);
         setExcess[root] += excess[i];
         setWeight[root] += weight[i];
     }
     label nSets = 0;
-    for (label i = 0; i < graph.n; ++i)
+    for (label i = 0; i < A.size(); ++i)
     {
-        const label root = findRoot(parent, i);
+        const label root = representative(parent, i);
         if (!isFloating(setExcess[root], setWeight[root])) continue;
         set[i] = root == i ? nSets++ : set[root];
     }
     return nSets;
 }
-
-template label floatingSets(const rowGraph<float>&, const List<float>&, const List<float>&,
-                            List<label>&);
-template label floatingSets(const rowGraph<scalar>&, const List<scalar>&, const List<scalar>&,
-                            List<label>&);
 
 constantNullSpace::constantNullSpace(List<label> set, label nSets)
     : set_(std::move(set)), nSets_(nSets), count_(nSets, 0)
@@ -68,8 +48,7 @@ constantNullSpace constantNullSpace::of(const csrMatrix& A)
     for (label i = 0; i < A.size(); ++i)
         for (label k = A.rowStart[i]; k < A.rowStart[i + 1]; ++k) excess[i] += A.value[k];
     List<label> set;
-    const rowGraph<scalar> graph{A.size(), A.rowStart.data(), A.column.data(), A.value.data()};
-    const label nSets = floatingSets(graph, excess, weight, set);
+    const label nSets = floatingSets(A, excess, weight, set);
     return {std::move(set), nSets};
 }
 

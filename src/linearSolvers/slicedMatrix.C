@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "slicedMatrix.H"
+
+#include <algorithm>
+
+namespace ispf
+{
+
+namespace
+{
+
+constexpr label width = slicedMatrix::width;
+
+struct slices
+{
+    const label* start;
+    const std::int32_t* column;
+    const float* value;
+    const float* diagonal;
+};
+
+// sum = A x on the 16 rows of slice s
+template <class V>
+ISPF_INLINE void sliceProduct(const slices& A, label s, const V* x, V* sum)
+{
+    for (label q = 0; q < width; ++q) sum[q] = A.diagonal[s * width + q] * x[s * width + q];
+    for (label k = A.start[s]; k < A.start[s + 1]; ++k)
+    {
+        const float* value = A.value + size_t(k) * width;
+        const std::int32_t* column = A.column + size_t(k) * width;
+        // Without this the compiler makes vectors along k, of permuted entries
+#pragma omp simd
+        for (label q = 0; q < width; ++q) sum[q] += value[q] * x[column[q]];
+    }
+}
+
+template <class V>
+ISPF_INLINE void multiplySlices(const slices& A, label s, label end, const V* x, V* y)
+{
+    for (; s < end; ++s)
+    {
+        V sum[width];
+        sliceProduct(A, s, x, sum);
+        for (label q = 0; q < width; ++q) y[s * width + q] = sum[q];
+    }
+}
+
+template <class V>
+ISPF_INLINE void residualSlices(const slices& A, label s, label end, const V* b, const V* x, V* r)
+{
+    for (; s < end; ++s)
+    {
+        V sum[width];
+        sliceProduct(A, s, x, sum);
+        for (label q = 0; q < width; ++q) r[s * width + q] = b[s * width + q] - sum[q];
+    }
+}
+
+template <class V>
+ISPF_INLINE void smoothSlices(const slices& A, label s, label end, const float* relax, const V* b,
+                              const V* x, V* y)
+{
+    for (; s < end; ++s)
+    {
+        V sum[width];
+        sliceProduct(A, s, x, sum);
+        for (label q = 0, i = s * width; q < width; ++q, ++i)
+            y[i] = x[i] + relax[i] * (b[i] - sum[q]);
+    }
+}
+
+// Clones must be plain functions, so both instances are spelt out
+ISPF_HOT void hotMultiply(const slices& A, label s, label e, const float* x, float* y)
+{
+    multiplySlices(A, s, e, x, y);
+}
+ISPF_HOT void hotMultiply(const slices& A, label s, label e, const float4* x, float4* y)
+{
+    multiplySlices(A, s, e, x, y);
+}
+ISPF_HOT void hotResidual(const slices& A, label s, label e, const float* b, const float* x,
+                          float* r)
+{
+    residualSlices(A, s, e, b, x, r);
+}
+ISPF_HOT void hotResidual(const slices& A, label s, label e, const float4* b, const float4* x,
+                          float4* r)
+{
+    residualSlices(A, s, e, b, x, r);
+}
+ISPF_HOT void hotSmooth(const slices& A, label s, label e, const float* relax, const float* b,
+                        const float* x, float* y)
+{
+    smoothSlices(A, s, e, relax, b, x, y);
+}
+ISPF_HOT void hotSmooth(const slices& A, label s, label e, const float* relax, const float4* b,
+                        const float4* x, float4* y)
+{
+    smoothSlices(A, s, e, relax, b, x, y);
+}
+
+}  // namespace
+
+template <class Real>
+slicedMatrix::slicedMatrix(label n, const label* rowStart, const std::int32_t* column,
+                           const Real* value, float factor)
+    : n_(n), diagonal_(padded(n), 0)
+{
+    const label nSlices = padded(n) / width;
+    start_.assign(nSlices + 1, 0);
+    for (label i = 0; i < n; ++i)
+        start_[i / width + 1] = std::max(start_[i / width + 1], rowStart[i + 1] - rowStart[i]);
+    for (label s = 0; s < nSlices; ++s) start_[s + 1] += start_[s];
+    column_.resize(size_t(start_[nSlices]) * width);
+    value_.resize(column_.size());
+    parallelFor(
+        nSlices,
+        [&](label first, label last) {
+            for (label i = first * width; i < last * width; ++i)
+            {
+                size_t at = entry(i);
+                const size_t end = at + rowSpan(i);
+                for (label k = i < n ? rowStart[i] : 0; i < n && k < rowStart[i + 1];
+                     ++k, at += width)
+                    column_[at] = column[k], value_[at] = factor * float(value[k]);
+                for (; at < end; at += width) column_[at] = std::min(i, n - 1), value_[at] = 0;
+            }
+        },
+        levelGrain / width);
+}
+
+template slicedMatrix::slicedMatrix(label, const label*, const std::int32_t*, const float*, float);
+template slicedMatrix::slicedMatrix(label, const label*, const std::int32_t*, const scalar*, float);
+
+bool slicedMatrix::hasEntries(label i) const
+{
+    for (size_t k = entry(i), end = k + rowSpan(i); k < end; k += width)
+        if (value_[k] != 0) return true;
+    return false;
+}
+
+template <class V>
+void slicedMatrix::multiply(const List<V>& x, List<V>& y) const
+{
+    const slices A{start_.data(), column_.data(), value_.data(), diagonal_.data()};
+    parallelFor(
+        padded(n_) / width, [&](label s, label e) { hotMultiply(A, s, e, x.data(), y.data()); },
+        levelGrain / width);
+}
+
+template <class V>
+void slicedMatrix::residual(const List<V>& b, const List<V>& x, List<V>& r) const
+{
+    const slices A{start_.data(), column_.data(), value_.data(), diagonal_.data()};
+    parallelFor(
+        padded(n_) / width,
+        [&](label s, label e) { hotResidual(A, s, e, b.data(), x.data(), r.data()); },
+        levelGrain / width);
+}
+
+template <class V>
+void slicedMatrix::smooth(const List<float>& relax, const List<V>& b, const List<V>& x,
+                          List<V>& y) const
+{
+    const slices A{start_.data(), column_.data(), value_.data(), diagonal_.data()};
+    parallelFor(
+        padded(n_) / width,
+        [&](label s, label e) { hotSmooth(A, s, e, relax.data(), b.data(), x.data(), y.data()); },
+        levelGrain / width);
+}
+
+#define INSTANTIATE(V)                                                                     \
+    template void slicedMatrix::multiply(const List<V>&, List<V>&) const;                  \
+    template void slicedMatrix::residual(const List<V>&, const List<V>&, List<V>&) const;  \
+    template void slicedMatrix::smooth(const List<float>&, const List<V>&, const List<V>&, \
+                                       List<V>&) const;
+INSTANTIATE(float)
+INSTANTIATE(float4)
+#undef INSTANTIATE
+
+}  // namespace ispf
