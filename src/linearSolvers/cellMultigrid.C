@@ -88,13 +88,14 @@ struct cellMultigrid::workspace
     };
     List<vectors> at;
 
-    workspace(const List<multigridLevel>& levels, bool kCycle) : at(levels.size())
+    void resize(const List<multigridLevel>& levels, bool kCycle)
     {
+        at.resize(levels.size());
         for (size_t l = 0; l < levels.size(); ++l)
         {
             const label n = slicedMatrix::padded(levels[l].size());
-            for (List<V>* v : {&at[l].b, &at[l].x, &at[l].r}) v->resize(n);
-            if (kCycle && l > 0) at[l].c.resize(n), at[l].v.resize(n);
+            for (List<V>* v : {&at[l].b, &at[l].x, &at[l].r}) v->assign(n, V{});
+            if (kCycle && l > 0) at[l].c.assign(n, V{}), at[l].v.assign(n, V{});
         }
     }
 };
@@ -108,19 +109,26 @@ void multigridOptions::read(const dictionary& dict)
 
 cellMultigrid::cellMultigrid(const csrMatrix& A, const List<vector>& x,
                              const multigridOptions& options, const List<std::uint8_t>& group)
-    : options_(options)
+    : options_(options), work1_(new workspace<float>)
+{
+    if (!(options.cellSize > 0))
+        throw fatalError("cellMultigrid: the cell size (the support of the kernel) must be given");
+    rebuild(A, x, group);
+}
+
+void cellMultigrid::rebuild(const csrMatrix& A, const List<vector>& x,
+                            const List<std::uint8_t>& group)
 {
     if (label(x.size()) != A.size() || (!group.empty() && label(group.size()) != A.size()))
         throw fatalError("cellMultigrid: " + std::to_string(x.size()) + " points and " +
                          std::to_string(group.size()) + " groups for a matrix of " +
                          std::to_string(A.size()) + " rows");
-    if (!(options.cellSize > 0))
-        throw fatalError("cellMultigrid: the cell size (the support of the kernel) must be given");
     buildFinest(A, x, group);
     buildLevels();
     buildNullSpace();
     setRelaxation();
-    work1_ = std::make_unique<workspace<float>>(level_, options_.cycle == "K");
+    work1_->resize(level_, options_.cycle == "K");
+    if (work3_) work3_->resize(level_, options_.cycle == "K");
 }
 
 cellMultigrid::~cellMultigrid() = default;
@@ -138,27 +146,26 @@ void cellMultigrid::buildFinest(const csrMatrix& A, const List<vector>& x,
                                 const List<std::uint8_t>& group)
 {
     const label n = A.size();
-    level_.resize(1);
+    level_.resize(std::max<size_t>(1, level_.size()));
     multigridLevel& f = level_[0];
     const scalar sum = parallelSum(n, [&](label i, label e) {
         return Eigen::Map<const Eigen::ArrayXd>(&A.diagonal[i], e - i).abs().sum();
     });
     matrixScale_ = sum > 0 ? sum / n : 1;
     const scalar scale = 1 / matrixScale_;
-    f.A = slicedMatrix(n, A.rowStart.data(), A.column.data(), A.value.data(), float(scale));
+    const List<scalar> off =
+        f.A.assign(n, A.rowStart.data(), A.column.data(), A.value.data(), float(scale));
     f.excess.resize(n), f.weight.resize(n), f.point.resize(n);
     f.nRows.assign(n, 1);
     f.group = group.empty() ? List<std::uint8_t>(n, 0) : group;
     vector corner = vector::Zero();
     if (n > 0) corner = x[0];
     for (const vector& p : x) corner = corner.cwiseMin(p);
-    parallelFor(n, [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
+    parallelFor(n, [&](label i, label end) {
+        for (; i < end; ++i)
         {
-            scalar rowSum = A.diagonal[i];
-            for (label k = A.rowStart[i]; k < A.rowStart[i + 1]; ++k) rowSum += A.value[k];
             f.A.diagonal()[i] = f.weight[i] = float(scale * A.diagonal[i]);
-            f.excess[i] = float(scale * rowSum);
+            f.excess[i] = float(scale * (A.diagonal[i] + off[i]));
             const vector p = x[i] - corner;
             f.point[i] = float4{float(p[0]), float(p[1]), float(p[2]), 0};
         }
@@ -170,20 +177,25 @@ void cellMultigrid::buildLevels()
     float extent = 0;
     for (const float4& p : level_[0].point) extent = std::max({extent, p[0], p[1], p[2]});
     float cellSize = float(options_.cellSize);
-    while (level_.back().size() > options_.coarsestSize)
+    size_t last = 0;  // levels beyond it are left from an earlier use
+    while (level_[last].size() > options_.coarsestSize)
     {
-        cellAggregates aggregates = aggregateByCell(level_.back(), cellSize);
+        cellAggregates aggregates = aggregateByCell(level_[last], cellSize);
         const bool useful = aggregates.n <= worthwhile * aggregates.member.size();
         if (useful && !aggregates.member.empty())
         {
-            multigridLevel coarse = coarsen(level_.back(), aggregates, cellSize);
-            transfer_.emplace_back(level_.back(), aggregates, coarse, cellSize);
-            level_.back().aggregate = std::move(aggregates.of);
-            level_.push_back(std::move(coarse));
+            if (level_.size() == last + 1) level_.emplace_back();
+            if (transfer_.size() == last) transfer_.emplace_back();
+            coarsen(level_[last], aggregates, cellSize, level_[last + 1]);
+            transfer_[last].assign(level_[last], aggregates, level_[last + 1], cellSize);
+            level_[last].aggregate = std::move(aggregates.of);
+            ++last;
         }
         else if (cellSize > 2 * extent) break;  // nothing left to join
         cellSize *= 2;
     }
+    level_.resize(last + 1);
+    transfer_.resize(last);
 }
 
 // Levels share sets of connected rows, so floating ones are found on the coarsest and handed up
@@ -217,6 +229,7 @@ void cellMultigrid::buildNullSpace()
 // nothing determines it
 void cellMultigrid::setRelaxation()
 {
+    relax_.clear();
     for (const multigridLevel& f : level_)
     {
         relax_.emplace_back(slicedMatrix::padded(f.size()), 0);
@@ -309,7 +322,11 @@ void cellMultigrid::apply(const List<scalar>& r, List<scalar>& z) const
 
 void cellMultigrid::applyBlock3(const List<vec4>& r, List<vec4>& z) const
 {
-    if (!work3_) work3_ = std::make_unique<workspace<float4>>(level_, options_.cycle == "K");
+    if (!work3_)
+    {
+        work3_ = std::make_unique<workspace<float4>>();
+        work3_->resize(level_, options_.cycle == "K");
+    }
     const label n = level_[0].size();
     const scalar squares = parallelSum(n, [&](label i, label e) {
         simd4 sum = {};

@@ -104,13 +104,15 @@ void select(const candidates& from, std::int32_t* column, float* weight)
 
 }  // namespace
 
-cellTransfer::cellTransfer(const multigridLevel& fine, const cellAggregates& aggregates,
-                           const multigridLevel& coarse, float cellSize)
-    : nFine_(fine.size()),
-      nCoarse_(aggregates.n),
-      coarse_(most * size_t(nFine_), 0),
-      weight_(most * size_t(nFine_), 0)
+void cellTransfer::assign(const multigridLevel& fine, const cellAggregates& aggregates,
+                          const multigridLevel& coarse, float cellSize)
 {
+    nFine_ = fine.size(), nCoarse_ = aggregates.n;
+    coarse_.resize(most * size_t(nFine_)), weight_.resize(coarse_.size());
+    for (label i = 0; i < nFine_; ++i)
+        if (aggregates.of[i] < 0)
+            for (size_t q = most * size_t(i); q < most * size_t(i + 1); ++q)
+                coarse_[q] = 0, weight_[q] = 0;
     parallelFor(
         aggregates.n,
         [&](label begin, label end) {

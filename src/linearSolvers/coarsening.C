@@ -118,22 +118,20 @@ void assemble(const List<piece>& pieces, float s, multigridLevel& coarse)
         value.insert(value.end(), p.value.begin(), p.value.end());
     }
     const label n = label(coarse.point.size());
-    coarse.A = slicedMatrix(n, rowStart.data(), column.data(), value.data(), s);
+    const List<scalar> off = coarse.A.assign(n, rowStart.data(), column.data(), value.data(), s);
     for (label a = 0; a < n; ++a)
     {
-        float off = 0;
-        for (label k = rowStart[a]; k < rowStart[a + 1]; ++k) off += value[k];
         float& diagonal = coarse.A.diagonal()[a];
-        diagonal = -s * off + std::max(0.f, coarse.excess[a]);
+        diagonal = float(-s * off[a] + std::max(0.f, coarse.excess[a]));
         if (!(diagonal > 0)) diagonal = coarse.weight[a];
     }
 }
 
 }  // namespace
 
-multigridLevel coarsen(const multigridLevel& fine, const cellAggregates& aggregates, float cellSize)
+void coarsen(const multigridLevel& fine, const cellAggregates& aggregates, float cellSize,
+             multigridLevel& coarse)
 {
-    multigridLevel coarse;
     placeAggregates(fine, aggregates, cellSize, coarse);
     List<piece> pieces((aggregates.n + blockRows - 1) / blockRows);
     rowAccumulator rows(fine, aggregates, coarse, cellSize);
@@ -144,7 +142,6 @@ multigridLevel coarsen(const multigridLevel& fine, const cellAggregates& aggrega
         });
     const scalar s = moments[0] / moments[1];
     assemble(pieces, std::isfinite(s) && s > 0 ? float(s) : 1, coarse);
-    return coarse;
 }
 
 }  // namespace ispf

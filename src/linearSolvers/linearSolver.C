@@ -36,9 +36,7 @@ class iterativeSolver : public linearSolver
 {
 public:
     iterativeSolver(const word& fieldName, const word& solver, const dictionary& dict)
-        : method_(solver),
-          dict_(dict),
-          preconditioner_(dict.choose("preconditioner", preconditionerWords))
+        : method_(solver), dict_(dict), name_(dict.choose("preconditioner", preconditionerWords))
     {
         const solverControls controls = solverControls::fromDict(dict);
         if (solver == "PCG") krylov_ = std::make_unique<PCG>(controls, fieldName);
@@ -48,9 +46,9 @@ public:
                 controls, fieldName, label(dict.getInRangeOrDefault("restart", 1, 1000, 60)));
         else passOver(dict, {"restart"}, solver);
 
-        if (preconditioner_ != "multigrid")
+        if (name_ != "multigrid")
         {
-            passOver(dict, {"cycle", "omega", "coarsestSize"}, preconditioner_);
+            passOver(dict, {"cycle", "omega", "coarsestSize"}, name_);
             return;
         }
         options_.cycle = word(solver == "PBiCGStab" ? "V" : "K");
@@ -66,48 +64,58 @@ public:
     {
         if (method_ == "PCG" && !system.symmetric)
             dict_.fail("solver", "the matrix is not symmetric; use PBiCGStab or FGMRES");
-        constantNullSpace floating;
-        const auto M = makePreconditioner(system, floating);
-        if (floating.empty()) return krylov_->solve(system.A, *M, b, x);
+        const preconditioner& M = prepare(system);
+        if (floating_.empty()) return krylov_->solve(system.A, M, b, x);
 
         List<scalar> compatible(b);
-        floating.project(compatible);
-        floating.project(x);
-        const solverPerformance done = krylov_->solve(system.A, *M, compatible, x);
-        floating.project(x);
+        floating_.project(compatible);
+        floating_.project(x);
+        const solverPerformance done = krylov_->solve(system.A, M, compatible, x);
+        floating_.project(x);
         return done;
     }
 
 private:
-    std::unique_ptr<preconditioner> makePreconditioner(const linearSystem& system,
-                                                       constantNullSpace& floating) const
+    // Builds the preconditioner, and finds the floating parts of a symmetric system
+    const preconditioner& prepare(const linearSystem& system)
     {
         const csrMatrix& A = system.A;
-        if (preconditioner_ == "multigrid")
+        floating_ = constantNullSpace();
+        if (name_ == "multigrid")
         {
-            if (!system.points)
-                dict_.fail("preconditioner",
-                           "this system has no points to build a multigrid on; "
-                           "use DILU, diagonal or none");
-            multigridOptions options = options_;
-            options.cellSize = system.cellSize;
-            auto multigrid = std::make_unique<cellMultigrid>(
-                A, *system.points, options, system.groups ? *system.groups : List<std::uint8_t>());
-            if (system.symmetric) floating = multigrid->nullSpace();
-            return multigrid;
+            buildMultigrid(system);
+            if (system.symmetric) floating_ = multigrid_->nullSpace();
+            return *multigrid_;
         }
-        if (system.symmetric) floating = constantNullSpace::of(A);
-        if (preconditioner_ == "DIC" && !system.symmetric)
+        if (system.symmetric) floating_ = constantNullSpace::of(A);
+        if (name_ == "DIC" && !system.symmetric)
             dict_.fail("preconditioner", "DIC needs a symmetric matrix; use DILU");
-        if (preconditioner_ == "diagonal") return std::make_unique<diagonalPreconditioner>(A);
-        if (preconditioner_ == "none") return std::make_unique<noPreconditioner>();
-        return std::make_unique<incompleteFactor>(A, preconditioner_);
+        if (name_ == "diagonal") preconditioner_ = std::make_unique<diagonalPreconditioner>(A);
+        else if (name_ == "none") preconditioner_ = std::make_unique<noPreconditioner>();
+        else preconditioner_ = std::make_unique<incompleteFactor>(A, name_);
+        return *preconditioner_;
+    }
+
+    void buildMultigrid(const linearSystem& system)
+    {
+        if (!system.points)
+            dict_.fail("preconditioner",
+                       "this system has no points to build a multigrid on; use "
+                       "DILU, diagonal or none");
+        const List<std::uint8_t> groups = system.groups ? *system.groups : List<std::uint8_t>();
+        if (multigrid_ && options_.cellSize == system.cellSize)
+            return multigrid_->rebuild(system.A, *system.points, groups);
+        options_.cellSize = system.cellSize;
+        multigrid_ = std::make_unique<cellMultigrid>(system.A, *system.points, options_, groups);
     }
 
     word method_;
     dictionary dict_;  // for messages
-    word preconditioner_;
+    word name_;        // of the preconditioner
     multigridOptions options_;
+    std::unique_ptr<cellMultigrid> multigrid_;
+    std::unique_ptr<preconditioner> preconditioner_;
+    constantNullSpace floating_;
     std::unique_ptr<krylovSolver> krylov_;
 };
 

@@ -102,10 +102,11 @@ ISPF_HOT void hotSmooth(const slices& A, label s, label e, const float* relax, c
 }  // namespace
 
 template <class Real>
-slicedMatrix::slicedMatrix(label n, const label* rowStart, const std::int32_t* column,
-                           const Real* value, float factor)
-    : n_(n), diagonal_(padded(n), 0)
+List<scalar> slicedMatrix::assign(label n, const label* rowStart, const std::int32_t* column,
+                                  const Real* value, float factor)
 {
+    n_ = n;
+    diagonal_.assign(padded(n), 0);
     const label nSlices = padded(n) / width;
     start_.assign(nSlices + 1, 0);
     for (label i = 0; i < n; ++i)
@@ -113,24 +114,33 @@ slicedMatrix::slicedMatrix(label n, const label* rowStart, const std::int32_t* c
     for (label s = 0; s < nSlices; ++s) start_[s + 1] += start_[s];
     column_.resize(size_t(start_[nSlices]) * width);
     value_.resize(column_.size());
+    List<scalar> offSum(padded(n), 0);
+    const auto fillRow = [&](label i) {
+        size_t at = entry(i);
+        const size_t end = at + rowSpan(i);
+        if (i < n)
+            for (label k = rowStart[i]; k < rowStart[i + 1]; ++k, at += width)
+            {
+                column_[at] = column[k];
+                value_[at] = factor * float(value[k]);
+                offSum[i] += value[k];
+            }
+        for (; at < end; at += width) column_[at] = std::min(i, n - 1), value_[at] = 0;
+    };
     parallelFor(
         nSlices,
-        [&](label first, label last) {
-            for (label i = first * width; i < last * width; ++i)
-            {
-                size_t at = entry(i);
-                const size_t end = at + rowSpan(i);
-                for (label k = i < n ? rowStart[i] : 0; i < n && k < rowStart[i + 1];
-                     ++k, at += width)
-                    column_[at] = column[k], value_[at] = factor * float(value[k]);
-                for (; at < end; at += width) column_[at] = std::min(i, n - 1), value_[at] = 0;
-            }
+        [&](label s, label e) {
+            for (label i = s * width; i < e * width; ++i) fillRow(i);
         },
         levelGrain / width);
+    offSum.resize(n);
+    return offSum;
 }
 
-template slicedMatrix::slicedMatrix(label, const label*, const std::int32_t*, const float*, float);
-template slicedMatrix::slicedMatrix(label, const label*, const std::int32_t*, const scalar*, float);
+template List<scalar> slicedMatrix::assign(label, const label*, const std::int32_t*, const float*,
+                                           float);
+template List<scalar> slicedMatrix::assign(label, const label*, const std::int32_t*, const scalar*,
+                                           float);
 
 bool slicedMatrix::hasEntries(label i) const
 {

@@ -233,6 +233,23 @@ TEST_CASE("multigrid: one thread and two give the same bits")
     CHECK(solutions[0] == solutions[1]);
 }
 
+TEST_CASE("multigrid: a rebuilt one is as good as new")
+{
+    jitteredLattice::choices c;
+    c.held = topHeld;
+    const jitteredLattice large(edge, edge, edge, c), small(12, 13, 14, {});
+    cellMultigrid rebuilt(large.A, large.x, options(large, "K"));
+    for (const jitteredLattice* lattice : {&small, &large})
+    {
+        const List<scalar> r = randomVector(lattice->A.size(), 3);
+        List<scalar> z(r.size()), fresh(r.size());
+        rebuilt.rebuild(lattice->A, lattice->x);
+        rebuilt.apply(r, z);
+        cellMultigrid(lattice->A, lattice->x, options(*lattice, "K")).apply(r, fresh);
+        CHECK(z == fresh);
+    }
+}
+
 TEST_CASE("multigrid: wrong input is refused")
 {
     const jitteredLattice lattice(5, 5, 5, {});
