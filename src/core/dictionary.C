@@ -247,12 +247,15 @@ void dictionary::checkAllRead() const
             if (e.isDict) e.dict.checkAllRead();
             continue;
         }
+        // an included file may hold settings for others, or for macros alone
+        const fileLocation at = content_->where(e);
+        if (at.file != path()) continue;
         const List<word> asked(content_->asked->begin(), content_->asked->end());
         const word kind = e.isDict ? "dictionary" : "entry";
         throw fatalError("Nothing reads the " + kind + " '" + e.key + "'." +
                              didYouMean(e.key, asked) + "\nValid entries here are: " +
                              (asked.empty() ? "none" : join(asked)) + "\nCorrect or remove it.",
-                         content_->where(e));
+                         at);
     }
 }
 
