@@ -43,7 +43,6 @@ public:
             },
             1);
         join(part);
-        eq_.nullSpace = constantNullSpace::of(eq_.A);
     }
 
 private:
@@ -127,7 +126,6 @@ void pressureEquation::setSource(const List<scalar>& f)
     const label n = A.size();
     source.resize(n);
     for (label i = 0; i < n; ++i) source[i] = boundary_[i] + (fixed_[i] ? 0 : f[i]);
-    nullSpace.project(source);
 }
 
 }  // namespace ispf

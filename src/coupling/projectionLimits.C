@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "projectionLimits.H"
+
+#include <cmath>
+#include <limits>
+
+namespace ispf
+{
+
+namespace
+{
+
+constexpr scalar none = std::numeric_limits<scalar>::infinity();
+constexpr label stepsBetweenUpdates = 50;
+
+scalar longest(const List<vec4>& v, label n)
+{
+    const scalar most = maxOf(n, [&](label begin, label end) {
+        scalar m = 0;
+        for (label i = begin; i < end; ++i) m = std::max(m, v[i].xyz().squaredNorm());
+        return m;
+    });
+    return std::sqrt(std::max(most, 0.0));
+}
+
+}  // namespace
+
+projectionLimits::projectionLimits(const fsiCase& c, bool explicitViscosity, bool meanUpdate,
+                                   const dictionary& dict)
+    : c_(c),
+      explicit_(explicitViscosity),
+      mean_(meanUpdate),
+      CFL_(dict.getInRangeOrDefault("CFL", 1e-6, 1, 0.4)),
+      force_(dict.getInRangeOrDefault("force", 1e-6, 1, 0.25)),
+      viscousFactor_(dict.getInRangeOrDefault("viscous", 1e-6, 1, 0.125))
+{
+}
+
+scalar projectionLimits::viscous() const
+{
+    const scalar h = c_.kernel->h();
+    return explicit_ && c_.mu > 0 ? viscousFactor_ * h * h / c_.nu() : none;
+}
+
+scalar projectionLimits::stiffness() const
+{
+    if (!c_.structure) return none;
+    const label now = c_.time.timeIndex();
+    if (stableStep_ < 0 || now >= lastUpdate_ + stepsBetweenUpdates)
+    {
+        stableStep_ = c_.structure->stableTimeStep(c_.cloud.x, c_.rho * c_.cloud.volume());
+        lastUpdate_ = now;
+    }
+    return mean_ ? std::min(stableStep_, 2 * c_.mu / (3 * c_.structure->shearModulus()))
+                 : stableStep_;
+}
+
+couplingScheme::stepLimit projectionLimits::ruling(const List<vec4>& acceleration) const
+{
+    const scalar h = c_.kernel->h();
+    const scalar u = std::max(longest(c_.cloud.Up, c_.cloud.n()), c_.walls->maxWallSpeed());
+    const scalar f = longest(acceleration, c_.cloud.n());
+    couplingScheme::stepLimit limit{none, "none"};
+    const auto atMost = [&](scalar dt, const char* rule) {
+        if (dt < limit.dt) limit = {dt, rule};
+    };
+    if (u > 0) atMost(CFL_ * h / u, "CFL");
+    if (f > 0) atMost(force_ * std::sqrt(h / f), "force");
+    atMost(viscous(), "viscous");
+    atMost(stiffness(), mean_ ? "stiffness (mean position update)" : "stiffness");
+    return limit;
+}
+
+void projectionLimits::check(scalar dt) const
+{
+    const auto refuse = [&](scalar limit, const word& why, const word& remedy) {
+        if (dt > limit * (1 + 1e-9))
+            throw fatalError("system/controlDict: deltaT " + str(dt) + " s is unstable: " + why +
+                             ". The largest admissible value is " + str(limit) + " s. " + remedy);
+    };
+    refuse(viscous(), "explicit viscosity needs dt <= 0.125 h^2/nu",
+           "Or set viscosity implicit in system/sphSolution");
+    refuse(stiffness(),
+           mean_ ? "the mean position update needs dt <= 2 mu/(3 G)"
+                 : "the springs need dt <= 2/omega_max",
+           mean_ ? "Or set positionUpdate symplectic, or take a softer wall"
+                 : "Or take coupling monolithic, which has no such limit, or a softer wall");
+}
+
+}  // namespace ispf

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "projectionStep.H"
+
+#include <ostream>
+
+namespace ispf
+{
+
+namespace
+{
+
+const char* const defaultPressureSolver =
+    "solver PCG; preconditioner multigrid; tolerance 1e-6; relTol 0; maxIter 200;";
+
+List<vector> points(const particleCloud& cloud)
+{
+    List<vector> x(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i) x[i] = cloud.x[i].xyz();
+    return x;
+}
+
+}  // namespace
+
+projectionStep::projectionStep(scalar rho, scalar mu, const word& viscosity,
+                               const operatorSchemes& schemes, const dictionary& solution)
+    : rho_(rho), nu_(mu / rho), schemes_(schemes)
+{
+    const dictionary solvers = solution.subOrEmptyDict("solvers");
+    const dictionary p = solvers.subOrEmptyDict("p");
+    pressureSolver_ = linearSolver::New(
+        "p", p.empty() ? dictionary::fromString(defaultPressureSolver, "default of solvers.p") : p);
+    if (viscosity == "implicit")
+        viscous_ = std::make_unique<projectionViscosity>(solvers.subOrEmptyDict("U"));
+}
+
+void projectionStep::predict(particleCloud& cloud, const stencil& s, const List<vec4>& a, scalar dt)
+{
+    if (viscous_)
+    {
+        List<vec4> dtA(a);
+        for (vec4& v : dtA) v.s *= dt;
+        viscous_->solve(cloud, s, dtA, dt * nu_);
+        return;
+    }
+    cloud.fillGhosts(cloud.Up, false);
+    const List<vec4> lap = sphc::laplacian(s, cloud.Up);
+    parallelFor(cloud.n(), [&](label begin, label end) {
+        const simd4 velocity = {dt, dt, dt, 0};
+        for (label i = begin; i < end; ++i)
+            if (!cloud.uFixed[i]) cloud.Up[i].s += velocity * (nu_ * lap[i].s + a[i].s);
+    });
+}
+
+void projectionStep::project(particleCloud& cloud, const stencil& s, const List<scalar>& q,
+                             scalar cellSize, scalar dt)
+{
+    const label n = cloud.n();
+    cloud.fillGhosts(cloud.Up, false);
+    List<scalar> f = sphc::div(s, cloud.Up, schemes_.divergence);
+    for (label i = 0; i < n; ++i) f[i] = -rho_ / dt * (f[i] - (q.empty() ? 0 : q[i]));
+
+    sphm::laplacian(s, equation_);
+    equation_.setSource(f);
+    const List<vector> x = points(cloud);
+    p_.resize(n);
+    for (label i = 0; i < n; ++i) p_[i] = cloud.pFixed[i] ? cloud.pGiven[i] : cloud.Up[i][3];
+    const solverPerformance result =
+        pressureSolver_->solve({equation_.A, true, &x, cellSize}, equation_.source, p_);
+    result.print();
+    if (!result.converged && !(result.finalResidual < 1e-2))
+        throw fatalError("The pressure equation did not converge: " + result.line() +
+                         "; raise maxIter in solvers.p of system/sphSolution, or reduce deltaT");
+
+    for (label i = 0; i < n; ++i) cloud.Up[i][3] = p_[i];
+    cloud.fillGhosts(cloud.Up, false);
+    const List<vec4> gradP = sphc::grad(s, cloud.Up, schemes_.gradient);
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            if (!cloud.uFixed[i]) cloud.Up[i].s -= dt / rho_ * gradP[i].s;
+    });
+}
+
+void projectionStep::printContinuityErrors(particleCloud& cloud, const stencil& s,
+                                           const List<scalar>& q, scalar dt)
+{
+    cloud.fillGhosts(cloud.Up, false);
+    const List<scalar> div = sphc::div(s, cloud.Up, schemes_.divergence);
+    scalar local = 0, global = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        const scalar error = dt * (div[i] - (q.empty() ? 0 : q[i])) / cloud.n();
+        local += std::abs(error), global += error;
+    }
+    cumulative_ += global;
+    info() << "time step continuity errors : sum local = " << local << ", global = " << global
+           << ", cumulative = " << cumulative_ << std::endl;
+}
+
+}  // namespace ispf
