@@ -75,7 +75,7 @@ void appendLinks(const particleCloud& cloud, const neighbourList& list, label i,
         const label j = list.index[k];
         if (j < cloud.n() || cloud.phase[j] == phaseType::rigid) continue;
         const scalar w = -2 * list.F[k];
-        if (w > 0)
+        if (!negligible(w, cloud.dx))
             links.push_back({i,
                              cloud.ghostSource(j),
                              cloud.ruleOf(j).M(3, 3),

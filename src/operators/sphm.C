@@ -56,7 +56,7 @@ private:
         {
             const label j = s_.list.index[k];
             const scalar w = -2 * s_.list.F[k];
-            if (j >= s_.cloud.n() || w == 0) continue;
+            if (j >= s_.cloud.n() || negligible(w, s_.cloud.dx)) continue;
             diagonal += w;
             add(out, j, -w, boundary);
         }
