@@ -114,7 +114,6 @@ void projection::printCourant(scalar dt) const
 
 void projection::step(scalar t, scalar dt)
 {
-    limits_.check(dt);
     printCourant(dt);
     c_.updateNeighbours(t, t + dt);
     particleCloud& cloud = c_.cloud;

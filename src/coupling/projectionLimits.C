@@ -66,25 +66,9 @@ couplingScheme::stepLimit projectionLimits::ruling(const List<vec4>& acceleratio
     };
     if (u > 0) atMost(CFL_ * h / u, "CFL");
     if (f > 0) atMost(force_ * std::sqrt(h / f), "force");
-    atMost(viscous(), "viscous");
-    atMost(stiffness(), mean_ ? "stiffness (mean position update)" : "stiffness");
+    atMost(viscous(), "explicit viscosity");
+    atMost(stiffness(), mean_ ? "stiffness (positionUpdate mean)" : "stiffness");
     return limit;
-}
-
-void projectionLimits::check(scalar dt) const
-{
-    const auto refuse = [&](scalar limit, const word& why, const word& remedy) {
-        if (dt > limit * (1 + 1e-9))
-            throw fatalError("system/controlDict: deltaT " + str(dt) + " s is unstable: " + why +
-                             ". The largest admissible value is " + str(limit) + " s. " + remedy);
-    };
-    refuse(viscous(), "explicit viscosity needs dt <= 0.125 h^2/nu",
-           "Or set viscosity implicit in system/sphSolution");
-    refuse(stiffness(),
-           mean_ ? "the mean position update needs dt <= 2 mu/(3 G)"
-                 : "the springs need dt <= 2/omega_max",
-           mean_ ? "Or set positionUpdate symplectic, or take a softer wall"
-                 : "Or take coupling monolithic, which has no such limit, or a softer wall");
 }
 
 }  // namespace ispf

@@ -1,2 +1,0 @@
-#include "couplingScheme.H"
-namespace ispf { std::unique_ptr<couplingScheme> newProjection(fsiCase&) { throw fatalError("coupling projection: not there yet"); } }
