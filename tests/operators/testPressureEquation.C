@@ -4,6 +4,7 @@
 
 #include "PCG.H"
 #include "constantNullSpace.H"
+#include "linearSolver.H"
 
 #include <doctest/doctest.h>
 
@@ -177,4 +178,28 @@ TEST_CASE("rigid neighbours are absent from the matrix")
     c.cloud.addRigid({0.31, 0.47, 0}, {1, 2, 0});
     c.refresh();
     CHECK((dense(c.equation.A) - before).cwiseAbs().maxCoeff() == 0);
+}
+
+TEST_CASE("a lattice whose rows lie on the edges of the multigrid's cells is solved like any other")
+{
+    for (const int n : {22, 24})
+    {
+        const periodicBox box(3, n, 0, "cubic", 1);
+        pressureEquation equation;
+        sphm::laplacian(box.stencil(), equation);
+        List<vector> points;
+        List<scalar> f, p(box.cloud.n(), 0);
+        for (label i = 0; i < box.cloud.n(); ++i)
+        {
+            points.push_back(box.cloud.x[i].xyz());
+            f.push_back(std::cos(2 * M_PI * points[i][0]) * std::cos(2 * M_PI * points[i][1]));
+        }
+        equation.setSource(f);
+        const auto solver = linearSolver::New(
+            "p", dictionary::fromString("solver PCG; preconditioner multigrid; tolerance 1e-6;"));
+        const auto done =
+            solver->solve({equation.A, true, &points, box.kernel->support()}, equation.source, p);
+        CHECK(done.converged);
+        CHECK(done.nIterations <= 20);
+    }
 }
