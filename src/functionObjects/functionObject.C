@@ -14,6 +14,7 @@ std::unique_ptr<functionObject> functionObject::New(const word& name, const dict
                                                 {"minMax", newMinMax},
                                                 {"patchFlux", newPatchFlux},
                                                 {"probes", newProbes},
+                                                {"surfaceLeaks", newSurfaceLeaks},
                                                 {"zoneDiameter", newZoneDiameter}};
     List<word> names;
     for (const auto& t : types) names.push_back(t.first);

@@ -139,9 +139,41 @@ TEST_CASE("surfaces and planes that do not fit are refused")
     };
     CHECK_ERROR(with("d { type zoneDiameter; surface inner; point (0 0 0.1); axis (0 0 1); }"),
                 "does not cut the surface inner", 0);
-    CHECK_ERROR(with("d { type zoneDiameter; surface inner; point (1e-3 1e-3 10e-3); axis (0 0 1); }"),
-                "two opposite sides", 0);
+    CHECK_ERROR(
+        with("d { type zoneDiameter; surface inner; point (1e-3 1e-3 10e-3); axis (0 0 1); }"),
+        "two opposite sides", 0);
     CHECK_ERROR(with("d { type zoneDiameter; surface inner; point (0 0 0.01); axis (0 0 0); }"),
                 "no direction", 0);
     CHECK_ERROR(with("d { type cavityVolume; surface outer; }"), "outer.stl", 0);
+}
+
+TEST_CASE("particles that went through a wall that has moved are counted, and how deep")
+{
+    shell s;
+    for (const scalar z : {-3e-3, 2.3e-3, 11.3e-3, 19.3e-3})
+        for (const scalar r : {1.5e-3, 9.5e-3})
+            s.add("chamber", "fluid", {r * std::cos(0.7), r * std::sin(0.7), z});
+    s.functions = "leaks { type surfaceLeaks; surface inner; zones (chamber); }";
+    auto r = s.start();
+    functionObjectList f(*r.c);
+    f.start();
+    CHECK(s.rows("leaks/0/surfaceLeaks.dat").at(0) == List<scalar>{0, 0, 0});
+
+    // the wall shrinks over the three outer particles above its rim
+    deform(r.c->cloud, [](const vector& x) { return vector(0.9 * x[0], 0.9 * x[1], x[2]); });
+    ++*r.time;
+    f.execute();
+    const auto row = s.rows("leaks/0/surfaceLeaks.dat").at(1);
+    CHECK(row[1] == 3);
+    CHECK(row[2] == Approx(0.5e-3).epsilon(0.05));
+}
+
+TEST_CASE("a surface with as many particles on one side as on the other has no right side")
+{
+    shell s;
+    s.add("chamber", "fluid", {9.5e-3 * std::cos(0.7), 9.5e-3 * std::sin(0.7), 11e-3});
+    s.add("chamber", "fluid", {10.5e-3 * std::cos(0.7), 10.5e-3 * std::sin(0.7), 11e-3});
+    s.functions = "leaks { type surfaceLeaks; surface inner; zones (chamber); }";
+    auto r = s.start();
+    CHECK_ERROR(functionObjectList(*r.c), "No side", 0);
 }

@@ -50,6 +50,7 @@ int run(const argList& args)
 
         coupling->step(t0, time.deltaT());
         ledger.update(time.deltaT());
+        ledger.writeLine();
         functions.execute();
         if (time.writeTime()) c.write();
 
