@@ -38,6 +38,8 @@ function section(kind, heading,    k, f) {
 }
 END {
     print "Hemisphere-capped cylinder, " ours["run"]
+    if (ours["reached"] < ours["endTime"] - 1e-3)
+        printf "THE RUN HAS REACHED %g s OF %g s ONLY\n", ours["reached"], ours["endTime"]
     section("result", "RESULTS")
     section("input", "INPUT, as the run had it")
     printf "\n%d more published numbers describe the measurement only.\n", measuring

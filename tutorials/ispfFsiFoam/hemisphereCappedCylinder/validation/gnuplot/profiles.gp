@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Axial velocity along the diameter 6 mm above the nozzle, one panel an instant, as the paper's Fig. 7
-# Variables: out; folder: an instant's curves are the files profile-<instant>*.dat in it
+# Variables: out; folder: an instant's curves are the files profile-<instant>*.dat in it; other: folder
+# of a run with another spacing, drawn dotted, or empty
 width = 1100
 height = 820
 load common
@@ -20,8 +21,12 @@ do for [k=1:4] {
         unset label 1
     } else {
         label(f) = system("echo ".f."| sed 's/profile-//; s/.dat$//; s/.DC./stop + /; s/mid.*/ /; s/[0-9]$/& s/'")
+        exists_(f) = other ne "" && system("test -e '".other."/".f."' && echo y") eq "y"
         plot for [i=1:words(files)] folder."/".word(files, i) using 1:2 with lines linestyle i \
-            title words(files) > 1 ? label(word(files, i)) : "", 0 with lines linestyle 9 notitle
+            title words(files) > 1 ? label(word(files, i)) : "", \
+            for [i=1:words(files)] (exists_(word(files, i)) ? other."/".word(files, i) : "/dev/null") \
+                using 1:2 with lines linestyle i dashtype 3 notitle, \
+            0 with lines linestyle 9 notitle
     }
 }
 unset multiplot
