@@ -122,8 +122,9 @@ private:
     void spread(std::int64_t stride)  // the outermost cells are empty: no wrap-around
     {
         const List<char> old = near_;
-        for (size_t k = size_t(stride); k + size_t(stride) < old.size(); ++k)
-            near_[k] = old[k] | old[k - size_t(stride)] | old[k + size_t(stride)];
+        const size_t step = size_t(stride), size = old.size();
+        for (size_t k = 0; k < size; ++k)
+            near_[k] = old[k] | (k >= step && old[k - step]) | (k + step < size && old[k + step]);
     }
 
     scalar cell_;
