@@ -23,8 +23,7 @@ const char* phaseWord(const zoneInfo& z)
 // attributes zones "a b c" and phases "fluid solid clamped"
 List<zoneInfo> zonesOf(const particleTable& table, const word& file)
 {
-    const auto listed = [&](const char* key)
-    {
+    const auto listed = [&](const char* key) {
         const auto it = table.attributes.find(key);
         if (it == table.attributes.end())
             throw fatalError(file + " has no attribute '" + key +
@@ -104,6 +103,8 @@ void readCloud(Time& time, particleCloud& cloud)
         x0 = cloud.x;
         std::fill(x0.begin() + cloud.nSolid(), x0.end(), vec4{});
     }
+    for (const auto& [name, values] : table.extra)
+        if (name.rfind("history.", 0) == 0) cloud.history[name.substr(8)] = values;
     if (const auto next = table.attributes.find("nextId"); next != table.attributes.end())
         cloud.setNextId(std::stoll(next->second));
 }
@@ -141,6 +142,7 @@ void writeCloud(Time& time, const particleCloud& cloud, const boundary& walls)
     for (const patchBalance& b : walls.balance())
         table.extra["balance." + b.name] = {b.swept, scalar(b.created), scalar(b.deleted),
                                             scalar(b.pushed)};
+    for (const auto& [name, values] : cloud.history) table.extra["history." + name] = values;
     table.setAttribute("nDims", cloud.nDims), table.setAttribute("dx", cloud.dx);
     table.setAttribute("time", time.value());
     table.attributes["nextId"] = std::to_string(cloud.nextId());

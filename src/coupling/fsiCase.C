@@ -16,9 +16,10 @@ fsiCase::fsiCase(Time& t) : time(t)
     readCloud(time, cloud);
     readProperties();
     readKernel();
-    walls = std::make_unique<boundary>(
-        caseFolder(), dictionary::fromFileIfPresent(time.constantFile("boundary")), cloud,
-        kernel->support());
+    walls = std::make_unique<boundary>(caseFolder(),
+                                       dictionary::fromFileIfPresent(time.constantFile("boundary")),
+                                       cloud, kernel->support());
+    restoreBalance(time, *walls);
     readStructure();
     coupling = solution.chooseOrDefault("coupling", {"projection", "monolithic"},
                                         structure ? "monolithic" : "projection");
@@ -39,9 +40,10 @@ void fsiCase::readProperties()
     {
         cloud.zoneIndex(zone);
         if (const scalar r = zoneRho.get<scalar>(zone); std::abs(r - rho) > 1e-3 * rho)
-            zoneRho.fail(zone, "Zone " + zone + " has density " + str(r) + ", the fluid " + str(rho) +
-                                   ": one incompressible system solves fluid and solid together, so "
-                                   "their densities must be equal");
+            zoneRho.fail(zone,
+                         "Zone " + zone + " has density " + str(r) + ", the fluid " + str(rho) +
+                             ": one incompressible system solves fluid and solid together, so "
+                             "their densities must be equal");
     }
     readBodyForce();
 }
@@ -59,9 +61,10 @@ void fsiCase::readBodyForce()
 void fsiCase::readKernel()
 {
     // 3D projection: what the paper's numbers imply, h = dx; else Wendland C2 at h = 1.3 dx
-    const bool paper = cloud.nDims == 3 && solution.getOrDefault<word>("coupling", "") == "projection";
-    const word name = schemes.chooseOrDefault("kernel", smoothingKernel::valid(),
-                                              paper ? "cubic" : "WendlandC2");
+    const bool paper =
+        cloud.nDims == 3 && solution.getOrDefault<word>("coupling", "") == "projection";
+    const word name =
+        schemes.chooseOrDefault("kernel", smoothingKernel::valid(), paper ? "cubic" : "WendlandC2");
     const scalar hByDx = schemes.getInRangeOrDefault("hByDx", 0.5, 4, paper ? 1.0 : 1.3);
     if (name.rfind("Wendland", 0) == 0 && hByDx < 1.05)
         warning("kernel " + name + " with hByDx " + str(hByDx) +
@@ -116,6 +119,9 @@ void fsiCase::report() const
     for (const dictionary* d : {&schemes, &solution, &physical}) d->checkAllRead();
 }
 
-void fsiCase::write() { writeCloud(time, cloud, *walls); }
+void fsiCase::write()
+{
+    writeCloud(time, cloud, *walls);
+}
 
 }  // namespace ispf

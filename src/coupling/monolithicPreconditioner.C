@@ -41,12 +41,13 @@ void monolithicPreconditioner::buildLaplacian()
     const fsiCase& c = system_.fsi();
     const particleCloud& cloud = c.cloud;
     const label n = cloud.n();
-    const auto tau = [&](label i) { return cloud.isFluid(i) ? system_.dt() / c.rho : system_.tau()[i]; };
+    const auto tau = [&](label i) {
+        return cloud.isFluid(i) ? system_.dt() / c.rho : system_.tau()[i];
+    };
 
     // Row i: sum_j -2 F_ij tau_ij (p_i - p_j), images folded into their source, rigid ones dropped
     // (dp/dn = 0); rows of given pressure carry the diagonal alone.
-    const auto row = [&](label i, auto&& entry)
-    {
+    const auto row = [&](label i, auto&& entry) {
         scalar d = 0;
         if (cloud.pFixed[i]) return d;
         for (std::int64_t k = c.list.start[i]; k < c.list.start[i + 1]; ++k)
@@ -61,23 +62,19 @@ void monolithicPreconditioner::buildLaplacian()
         return d;
     };
     L_.rowStart.assign(n + 1, 0), L_.diagonal.resize(n);
-    parallelFor(n,
-                [&](label begin, label end)
-                {
-                    for (label i = begin; i < end; ++i)
-                        L_.diagonal[i] = row(i, [&](label, scalar) { ++L_.rowStart[i + 1]; });
-                });
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            L_.diagonal[i] = row(i, [&](label, scalar) { ++L_.rowStart[i + 1]; });
+    });
     for (label i = 0; i < n; ++i) L_.rowStart[i + 1] += L_.rowStart[i];
     L_.column.resize(L_.rowStart[n]), L_.value.resize(L_.rowStart[n]);
-    parallelFor(n,
-                [&](label begin, label end)
-                {
-                    for (label i = begin; i < end; ++i)
-                    {
-                        label k = L_.rowStart[i];
-                        row(i, [&](label j, scalar a) { L_.column[k] = j, L_.value[k++] = a; });
-                    }
-                });
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            label k = L_.rowStart[i];
+            row(i, [&](label j, scalar a) { L_.column[k] = j, L_.value[k++] = a; });
+        }
+    });
     // rows without neighbours, or of given pressure: any positive diagonal of the right size
     const scalar largest = *std::max_element(L_.diagonal.begin(), L_.diagonal.end());
     for (scalar& d : L_.diagonal) d = d > 0 ? d * (1 + 1e-9) : largest;
@@ -95,15 +92,13 @@ void monolithicPreconditioner::momentum(const List<scalar>& r, List<vec4>& u) co
 
     cloud.fillGhosts(u, true);
     system_.rows().viscousNeighbours(u, work_);
-    parallelFor(n - nSolid,
-                [&](label begin, label end)
-                {
-                    for (label i = nSolid + begin; i < nSolid + end; ++i)
-                    {
-                        u[i].s -= system_.viscousFactor() / A[i] * work_[i].s;
-                        u[i][3] = 0;
-                    }
-                });
+    parallelFor(n - nSolid, [&](label begin, label end) {
+        for (label i = nSolid + begin; i < nSolid + end; ++i)
+        {
+            u[i].s -= system_.viscousFactor() / A[i] * work_[i].s;
+            u[i][3] = 0;
+        }
+    });
 }
 
 void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) const

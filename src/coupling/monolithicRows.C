@@ -30,7 +30,8 @@ view viewOf(const particleCloud& cloud, const neighbourList& list, const kernelC
 }
 
 // Momentum gradient of p from the same-phase sums: the fluid's is corrected, the solid's carries the load
-ISPF_INLINE vector momentumGradient(const view& v, label i, const vector& raw, const vector& corrected)
+ISPF_INLINE vector momentumGradient(const view& v, label i, const vector& raw,
+                                    const vector& corrected)
 {
     if (i >= v.nSolid) return corrected;
     simd4 load = {};
@@ -124,17 +125,14 @@ void monolithicRows::setup(const particleCloud& cloud, const neighbourList& list
 {
     cloud_ = &cloud, list_ = &list, B_ = &B;
     sumF_.resize(cloud.n());
-    parallelFor(cloud.n(),
-                [&](label begin, label end)
-                {
-                    for (label i = begin; i < end; ++i)
-                    {
-                        scalar sum = 0;
-                        for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
-                            sum += list.F[k];
-                        sumF_[i] = sum;
-                    }
-                });
+    parallelFor(cloud.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            scalar sum = 0;
+            for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k) sum += list.F[k];
+            sumF_[i] = sum;
+        }
+    });
 }
 
 void monolithicRows::setLoads(List<std::int64_t> start, List<vec4> c)
@@ -145,21 +143,18 @@ void monolithicRows::setLoads(List<std::int64_t> start, List<vec4> c)
 void monolithicRows::setTau(const List<scalar>& tau)
 {
     pairTau_.resize(list_->index.size());
-    const auto tauOf = [&](label j)
-    {
+    const auto tauOf = [&](label j) {
         if (j < cloud_->n()) return tau[j];
         return tau[cloud_->ghostSource(j)];
     };
-    parallelFor(cloud_->n(),
-                [&](label begin, label end)
-                {
-                    for (label i = begin; i < end; ++i)
-                        for (std::int64_t k = list_->start[i]; k < list_->mid[i]; ++k)
-                        {
-                            const scalar a = tau[i], b = tauOf(list_->index[k]);
-                            pairTau_[k] = 2 * a * b / (a + b);
-                        }
-                });
+    parallelFor(cloud_->n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            for (std::int64_t k = list_->start[i]; k < list_->mid[i]; ++k)
+            {
+                const scalar a = tau[i], b = tauOf(list_->index[k]);
+                pairTau_[k] = 2 * a * b / (a + b);
+            }
+    });
 }
 
 void monolithicRows::firstPass(const List<vec4>& phi, List<vec4>& gp, List<vec4>& lap,
@@ -168,15 +163,17 @@ void monolithicRows::firstPass(const List<vec4>& phi, List<vec4>& gp, List<vec4>
     const label n = cloud_->n();
     gp.resize(n), lap.resize(n), gs.resize(cloud_->nAll());
     const view v = viewOf(*cloud_, *list_, *B_, phi, loadStart_, load_);
-    parallelFor(n, [&](label b, label e) { firstRange(v, b, e, gp.data(), lap.data(), gs.data()); });
+    parallelFor(n,
+                [&](label b, label e) { firstRange(v, b, e, gp.data(), lap.data(), gs.data()); });
 }
 
 void monolithicRows::secondPass(const List<vec4>& gs, List<scalar>& cp) const
 {
     cp.resize(cloud_->n());
     const view v = viewOf(*cloud_, *list_, *B_, gs, loadStart_, load_);
-    parallelFor(cloud_->n(), [&](label b, label e)
-                { secondRange(v, pairTau_.data(), b, e, gs.data(), cp.data()); });
+    parallelFor(cloud_->n(), [&](label b, label e) {
+        secondRange(v, pairTau_.data(), b, e, gs.data(), cp.data());
+    });
 }
 
 void monolithicRows::viscousNeighbours(const List<vec4>& phi, List<vec4>& sum) const

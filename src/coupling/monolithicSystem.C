@@ -71,20 +71,17 @@ void monolithicSystem::apply(const List<scalar>& x, List<scalar>& y) const
     }
 
     y.resize(size());
-    parallelFor(n,
-                [&](label begin, label end)
-                {
-                    for (label i = begin; i < end; ++i)
-                    {
-                        simd4 m = inertia * phi_[i].s + viscousFactor() * lap_[i].s + V * gp_[i].s;
-                        if (K_ && i < nSolid) m += dt_ * Ku_[i].s;
-                        m /= diagonal_[i];
-                        if (cloud.uFixed[i]) m = phi_[i].s;
-                        for (int a = 0; a < 3; ++a) y[4 * i + a] = m[a];
-                        y[4 * i + 3] = cloud.pFixed[i] ? phi_[i].s[3]
-                                                       : cloud.dx * (gp_[i].s[3] - cp_[i]);
-                    }
-                });
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            simd4 m = inertia * phi_[i].s + viscousFactor() * lap_[i].s + V * gp_[i].s;
+            if (K_ && i < nSolid) m += dt_ * Ku_[i].s;
+            m /= diagonal_[i];
+            if (cloud.uFixed[i]) m = phi_[i].s;
+            for (int a = 0; a < 3; ++a) y[4 * i + a] = m[a];
+            y[4 * i + 3] = cloud.pFixed[i] ? phi_[i].s[3] : cloud.dx * (gp_[i].s[3] - cp_[i]);
+        }
+    });
 }
 
 }  // namespace ispf

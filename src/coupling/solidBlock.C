@@ -52,10 +52,8 @@ void solidBlock::solve(const List<scalar>& A, const particleCloud& cloud, List<v
         if (cloud.uFixed[i]) r_[i] = vec4{};
         r_[i][3] = 0;
     }
-    if (multigrid_)
-        multigrid_->applyBlock3(r_, z_);
-    else
-        direct_.apply(r_, z_);
+    if (multigrid_) multigrid_->applyBlock3(r_, z_);
+    else direct_.apply(r_, z_);
     for (label i = 0; i < n; ++i)
         if (!cloud.uFixed[i]) u[i].s = simd4{z_[i][0], z_[i][1], z_[i][2], 0};
 }

@@ -16,14 +16,21 @@ int fluidZone(const particleCloud& cloud, label j)
     return cloud.zone[j < cloud.n() ? j : cloud.ghostSource(j)];
 }
 
-vector kernelGradient(const particleCloud& cloud, const neighbourList& list, label i, std::int64_t k)
+vector kernelGradient(const particleCloud& cloud, const neighbourList& list, label i,
+                      std::int64_t k)
 {
     return list.F[k] * (cloud.x[i].xyz() - cloud.x[list.index[k]].xyz());
 }
 
 constexpr const char* sideField = "surfaceSides";  // {M0, a + 256 b}; a, b zone numbers plus one
-int sideA(scalar code) { return int(code) % 256 - 1; }
-int sideB(scalar code) { return int(code) / 256 - 1; }
+int sideA(scalar code)
+{
+    return int(code) % 256 - 1;
+}
+int sideB(scalar code)
+{
+    return int(code) / 256 - 1;
+}
 
 }  // namespace
 
@@ -45,12 +52,11 @@ void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
         for (int z = 0; z < int(sum.size()); ++z)
         {
             if (sum[z].norm() < 1e-3 / cloud.dx) continue;
-            if (a < 0 || sum[z].norm() > sum[a].norm())
-                b = a, a = z;
-            else if (b < 0 || sum[z].norm() > sum[b].norm())
-                b = z;
+            if (a < 0 || sum[z].norm() > sum[a].norm()) b = a, a = z;
+            else if (b < 0 || sum[z].norm() > sum[b].norm()) b = z;
         }
-        const vector M = (a < 0 ? vector::Zero() : sum[a]) - (b < 0 ? vector(vector::Zero()) : sum[b]);
+        const vector M =
+            (a < 0 ? vector::Zero() : sum[a]) - (b < 0 ? vector(vector::Zero()) : sum[b]);
         sides[i] = vec4::from(F[i].transpose() * M / F[i].determinant(), (a + 1) + 256 * (b + 1));
     }
 }
@@ -66,8 +72,7 @@ void solidSurface::loads(const particleCloud& cloud, const neighbourList& list,
     List<char> twoSided(nSolid, 0);
     parallelFor(
         nSolid,
-        [&](label begin, label end)
-        {
+        [&](label begin, label end) {
             List<scalar> w;
             for (label i = begin; i < end; ++i)
             {
@@ -79,8 +84,7 @@ void solidSurface::loads(const particleCloud& cloud, const neighbourList& list,
                 {
                     const label j = list.index[k];
                     const int z = k < list.mid[i] ? -1 : fluidZone(cloud, j);
-                    if (z < 0)
-                        N -= kernelGradient(cloud, list, i, k);
+                    if (z < 0) N -= kernelGradient(cloud, list, i, k);
                     else
                         weight[z] += w[k - list.mid[i]] =
                             kernel.W((cloud.x[i].xyz() - cloud.x[j].xyz()).norm());
@@ -89,7 +93,8 @@ void solidSurface::loads(const particleCloud& cloud, const neighbourList& list,
                 vector load[2] = {N, vector::Zero()};
                 if (a >= 0 && b >= 0)
                 {
-                    const vector M = F[i].determinant() * F[i].inverse().transpose() * sides[i].xyz();
+                    const vector M =
+                        F[i].determinant() * F[i].inverse().transpose() * sides[i].xyz();
                     load[0] = 0.5 * (N + M), load[1] = 0.5 * (N - M);
                     twoSided[i] = 1;
                 }

@@ -29,8 +29,7 @@ void trackedSurface::attach(const fsiCase& c)
     List<List<std::pair<label, scalar>>> found(nv);
     parallelFor(
         nv,
-        [&](label begin, label end)
-        {
+        [&](label begin, label end) {
             for (label v = begin; v < end; ++v)
             {
                 // w_j = W_j (1, r)^T M^-1 (1, 0), M = sum W (1, r)(1, r)^T: linear reproduction
@@ -46,12 +45,13 @@ void trackedSurface::attach(const fsiCase& c)
                     near.push_back({j, W * P});
                 }
                 if (near.size() < 4)
-                    throw fatalError("Surface " + name_ + ": vertex (" + str(rest_.nodes[v][0]) + " " +
-                                     str(rest_.nodes[v][1]) + " " + str(rest_.nodes[v][2]) +
+                    throw fatalError("Surface " + name_ + ": vertex (" + str(rest_.nodes[v][0]) +
+                                     " " + str(rest_.nodes[v][1]) + " " + str(rest_.nodes[v][2]) +
                                      ") has no solid particles near it to follow");
                 const Eigen::Vector4d a = M.ldlt().solve(Eigen::Vector4d(1, 0, 0, 0));
                 scalar sum = 0;
-                for (const auto& [j, WP] : near) found[v].push_back({j, a.dot(WP)}), sum += a.dot(WP);
+                for (const auto& [j, WP] : near)
+                    found[v].push_back({j, a.dot(WP)}), sum += a.dot(WP);
                 for (auto& [j, w] : found[v]) w /= sum;
             }
         },
@@ -86,23 +86,21 @@ void trackedSurface::findApex(const boundary& walls)
 
 void trackedSurface::update(const List<vec4>& x)
 {
-    parallelFor(label(now_.nodes.size()),
-                [&](label begin, label end)
-                {
-                    for (label v = begin; v < end; ++v)
-                    {
-                        simd4 sum = {};
-                        for (label k = start_[v]; k < start_[v + 1]; ++k)
-                            sum += weight_[k] * x[source_[k]].s;
-                        now_.nodes[v] = vector(sum[0], sum[1], sum[2]);
-                    }
-                });
+    parallelFor(label(now_.nodes.size()), [&](label begin, label end) {
+        for (label v = begin; v < end; ++v)
+        {
+            simd4 sum = {};
+            for (label k = start_[v]; k < start_[v + 1]; ++k) sum += weight_[k] * x[source_[k]].s;
+            now_.nodes[v] = vector(sum[0], sum[1], sum[2]);
+        }
+    });
 }
 
 scalar trackedSurface::volumeOf(const triSurface& s) const
 {
     scalar volume = 0;
-    for (label t = 0; t < s.size(); ++t) volume += (s.corner(t, 0) - apex_).dot(s.areaVector(t)) / 3;
+    for (label t = 0; t < s.size(); ++t)
+        volume += (s.corner(t, 0) - apex_).dot(s.areaVector(t)) / 3;
     return std::abs(volume) * factor_;
 }
 

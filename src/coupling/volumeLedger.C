@@ -18,11 +18,9 @@ volumeLedger::volumeLedger(fsiCase& c) : c_(c)
         cavity0_ = cavity_->restVolume();
     }
     wall0_ = wallVolume();
-    List<scalar>& state = c.history["volumeLedger"];  // survives a restart
-    if (state.size() == 3)
-        controlled_ = state[0], source_ = state[1], wall0_ = state[2];
-    else
-        state = {0, 0, wall0_};
+    List<scalar>& state = c.cloud.history["volumeLedger"];  // survives a restart
+    if (state.size() == 3) controlled_ = state[0], source_ = state[1], wall0_ = state[2];
+    else state = {0, 0, wall0_};
     c.source.assign(c.cloud.zones.size(), 0);
     if (zone_ >= 0) c.source[zone_] = source_;
 
@@ -64,7 +62,7 @@ void volumeLedger::update(scalar dt)
     controlled_ += source_ * fluid * dt;
     source_ = fluid > 0 ? -relaxation_ * (cavityChange() - swept()) / (fluid * dt) : 0;
     c_.source[zone_] = source_;
-    c_.history["volumeLedger"] = {controlled_, source_, wall0_};
+    c_.cloud.history["volumeLedger"] = {controlled_, source_, wall0_};
 }
 
 void volumeLedger::writeLine()

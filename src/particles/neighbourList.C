@@ -37,7 +37,8 @@ struct searchGrid
         List<label> key(n);
         for (label i = 0; i < n; ++i)
         {
-            key[i] = label((cellOf(p[i][2], 2) * ny + cellOf(p[i][1], 1)) * nx + cellOf(p[i][0], 0));
+            key[i] =
+                label((cellOf(p[i][2], 2) * ny + cellOf(p[i][1], 1)) * nx + cellOf(p[i][0], 0));
             ++start[key[i] + 1];
         }
         for (size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
@@ -97,7 +98,8 @@ struct rowBuilder
         const float q[3] = {float(xi[0] - grid.low[0]), float(xi[1] - grid.low[1]),
                             float(xi[2] - grid.low[2])};
         const float limit = float(reach * reach) * 1.0001f;
-        const int cx = grid.cellOf(xi[0], 0), cy = grid.cellOf(xi[1], 1), cz = grid.cellOf(xi[2], 2);
+        const int cx = grid.cellOf(xi[0], 0), cy = grid.cellOf(xi[1], 1),
+                  cz = grid.cellOf(xi[2], 2);
         const int x0 = std::max(0, cx - 1), x1 = int(std::min<std::int64_t>(grid.nx - 1, cx + 1));
         for (int z = std::max(0, cz - 1); z <= std::min<std::int64_t>(grid.nz - 1, cz + 1); ++z)
             for (int y = std::max(0, cy - 1); y <= std::min<std::int64_t>(grid.ny - 1, cy + 1); ++y)
@@ -120,8 +122,8 @@ struct rowBuilder
             throw fatalError("Particle " + std::to_string(cloud.id[i]) + " and " +
                              (j < cloud.n() ? "particle " + std::to_string(cloud.id[j])
                                             : word("a boundary particle")) +
-                             " coincide at (" + str(cloud.x[i][0]) + " " + str(cloud.x[i][1]) + " " +
-                             str(cloud.x[i][2]) + ")");
+                             " coincide at (" + str(cloud.x[i][0]) + " " + str(cloud.x[i][1]) +
+                             " " + str(cloud.x[i][2]) + ")");
         const bool samePhase = cloud.phase[j] == cloud.phase[i];
         (samePhase ? same : other).push_back(j);
         (samePhase ? sameR2 : otherR2).push_back(r2);
@@ -129,8 +131,7 @@ struct rowBuilder
 
     void append(neighbourList& part)
     {
-        const auto add = [&](const List<label>& j, const List<scalar>& r2)
-        {
+        const auto add = [&](const List<label>& j, const List<scalar>& r2) {
             F.resize(j.size());
             kernel.F(r2.data(), F.data(), label(j.size()));
             for (scalar& f : F) f *= cloud.volume();
@@ -160,8 +161,7 @@ void neighbourList::build(const particleCloud& cloud, const smoothingKernel& ker
     List<neighbourList> part(nBlocks);
     parallelFor(
         nBlocks,
-        [&](label begin, label end)
-        {
+        [&](label begin, label end) {
             rowBuilder rows(cloud, kernel, grid, visible);
             for (label b = begin; b < end; ++b)
                 for (label i = b * blockRows; i < std::min(n, (b + 1) * blockRows); ++i)
@@ -177,8 +177,7 @@ void neighbourList::build(const particleCloud& cloud, const smoothingKernel& ker
     index.resize(offset[nBlocks]), F.resize(offset[nBlocks]);
     parallelFor(
         nBlocks,
-        [&](label begin, label end)
-        {
+        [&](label begin, label end) {
             for (label b = begin; b < end; ++b)
             {
                 const neighbourList& p = part[b];

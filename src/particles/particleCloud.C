@@ -20,7 +20,7 @@ label particleCloud::zoneIndex(const word& name) const
 }
 
 // All owned fields, so that sorting, deleting and adding treat each the same way
-template<class Visit>
+template <class Visit>
 void particleCloud::forAllFields(Visit&& visit)
 {
     visit(x), visit(Up), visit(zone), visit(phase), visit(id), visit(uFixed), visit(pFixed);
@@ -36,8 +36,9 @@ void particleCloud::append(const vector& position, std::uint8_t zoneIndex, const
     const zoneInfo& z = zones.at(zoneIndex);
     if (z.phase == phaseType::solid)
     {
-        if (n_ > nSolid_) throw fatalError("Solid particle " + std::to_string(number) +
-                                           " follows a fluid one; solids must come first");
+        if (n_ > nSolid_)
+            throw fatalError("Solid particle " + std::to_string(number) +
+                             " follows a fluid one; solids must come first");
         ++nSolid_;
     }
     ++n_;
@@ -53,14 +54,12 @@ void particleCloud::append(const vector& position, std::uint8_t zoneIndex, const
 void particleCloud::remove(const List<char>& flag)
 {
     clearGhosts();
-    forAllFields(
-        [&](auto& field)
-        {
-            label to = nSolid_;
-            for (label i = nSolid_; i < n_; ++i)
-                if (!flag[i]) field[to++] = field[i];
-            field.resize(to);
-        });
+    forAllFields([&](auto& field) {
+        label to = nSolid_;
+        for (label i = nSolid_; i < n_; ++i)
+            if (!flag[i]) field[to++] = field[i];
+        field.resize(to);
+    });
     n_ = label(x.size());
 }
 
@@ -80,12 +79,10 @@ void particleCloud::sortFluid(scalar cellSize)
     List<label> order(nFluid);
     std::iota(order.begin(), order.end(), nSolid_);
     std::stable_sort(order.begin(), order.end(), [&](label a, label b) { return key[a] < key[b]; });
-    forAllFields(
-        [&](auto& field)
-        {
-            const auto old = field;
-            for (label k = 0; k < nFluid; ++k) field[nSolid_ + k] = old[order[k]];
-        });
+    forAllFields([&](auto& field) {
+        const auto old = field;
+        for (label k = 0; k < nFluid; ++k) field[nSolid_ + k] = old[order[k]];
+    });
 }
 
 void particleCloud::clearGhosts()
@@ -117,41 +114,36 @@ void particleCloud::addRigid(const vector& position, const vector& velocity)
 void particleCloud::fillGhosts(List<vec4>& f, bool homogeneous) const
 {
     f.resize(x.size());
-    parallelFor(nGhosts(),
-                [&](label begin, label end)
-                {
-                    const simd4 zero = {};
-                    for (label g = begin; g < end; ++g)
-                    {
-                        simd4 value = homogeneous ? zero : offset_[g].s;
-                        if (source_[g] >= 0)
-                        {
-                            const simd4 s = f[source_[g]].s;
-                            const scalar* M = rules_[rule_[g]].M.data();  // column-major
-                            for (int c = 0; c < 4; ++c)
-                                value += s[c] * simd4{M[4 * c], M[4 * c + 1], M[4 * c + 2],
-                                                      M[4 * c + 3]};
-                        }
-                        f[n_ + g].s = value;
-                    }
-                });
+    parallelFor(nGhosts(), [&](label begin, label end) {
+        const simd4 zero = {};
+        for (label g = begin; g < end; ++g)
+        {
+            simd4 value = homogeneous ? zero : offset_[g].s;
+            if (source_[g] >= 0)
+            {
+                const simd4 s = f[source_[g]].s;
+                const scalar* M = rules_[rule_[g]].M.data();  // column-major
+                for (int c = 0; c < 4; ++c)
+                    value += s[c] * simd4{M[4 * c], M[4 * c + 1], M[4 * c + 2], M[4 * c + 3]};
+            }
+            f[n_ + g].s = value;
+        }
+    });
 }
 
 void particleCloud::fillGradientGhosts(List<vec4>& f) const
 {
     f.resize(x.size());
-    parallelFor(nGhosts(),
-                [&](label begin, label end)
-                {
-                    for (label g = begin; g < end; ++g)
-                    {
-                        f[n_ + g] = vec4{};
-                        if (source_[g] < 0) continue;
-                        const vec4& s = f[source_[g]];
-                        const ghostRule& rule = rules_[rule_[g]];
-                        f[n_ + g] = vec4::from(rule.R * s.xyz(), rule.M(3, 3) * s[3]);
-                    }
-                });
+    parallelFor(nGhosts(), [&](label begin, label end) {
+        for (label g = begin; g < end; ++g)
+        {
+            f[n_ + g] = vec4{};
+            if (source_[g] < 0) continue;
+            const vec4& s = f[source_[g]];
+            const ghostRule& rule = rules_[rule_[g]];
+            f[n_ + g] = vec4::from(rule.R * s.xyz(), rule.M(3, 3) * s[3]);
+        }
+    });
 }
 
 void particleCloud::checkFinite(scalar time) const
@@ -161,12 +153,13 @@ void particleCloud::checkFinite(scalar time) const
         scalar sum = 0;
         for (int k = 0; k < 4; ++k) sum += x[i][k] + Up[i][k];
         if (!std::isfinite(sum))
-            throw fatalError("Particle " + std::to_string(id[i]) + " (zone " + zones[zone[i]].name +
-                             ") at (" + str(x[i][0]) + " " + str(x[i][1]) + " " + str(x[i][2]) +
-                             ") has U = (" + str(Up[i][0]) + " " + str(Up[i][1]) + " " +
-                             str(Up[i][2]) + "), p = " + str(Up[i][3]) + " at time " + str(time) +
-                             " s: the run has become unstable. Reduce deltaT or see which limit the "
-                             "log names; the last written time is intact");
+            throw fatalError(
+                "Particle " + std::to_string(id[i]) + " (zone " + zones[zone[i]].name + ") at (" +
+                str(x[i][0]) + " " + str(x[i][1]) + " " + str(x[i][2]) + ") has U = (" +
+                str(Up[i][0]) + " " + str(Up[i][1]) + " " + str(Up[i][2]) +
+                "), p = " + str(Up[i][3]) + " at time " + str(time) +
+                " s: the run has become unstable. Reduce deltaT or see which limit the "
+                "log names; the last written time is intact");
     }
 }
 

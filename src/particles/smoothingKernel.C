@@ -12,7 +12,10 @@ namespace
 
 // Each shape: w(q), f(q) = w'(q)/q, support in h, and the normalisation in 2D and 3D (times h^-nDims)
 
-ISPF_INLINE scalar positive(scalar a) { return a > 0 ? a : 0; }
+ISPF_INLINE scalar positive(scalar a)
+{
+    return a > 0 ? a : 0;
+}
 
 struct cubic
 {
@@ -81,7 +84,7 @@ struct wendlandC4
     }
 };
 
-template<class Shape>
+template <class Shape>
 class kernelOf : public smoothingKernel
 {
 public:
@@ -104,7 +107,10 @@ private:
 
 }  // namespace
 
-List<word> smoothingKernel::valid() { return {"cubic", "quintic", "WendlandC2", "WendlandC4"}; }
+List<word> smoothingKernel::valid()
+{
+    return {"cubic", "quintic", "WendlandC2", "WendlandC4"};
+}
 
 std::unique_ptr<smoothingKernel> smoothingKernel::New(const word& name, int nDims, scalar h)
 {

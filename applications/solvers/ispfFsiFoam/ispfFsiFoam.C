@@ -67,11 +67,9 @@ int run(const argList& args)
 
 int main(int argc, char** argv)
 {
-    return runMain(
-        [&]
-        {
-            argList args("ispfFsiFoam",
-                         "Incompressible SPH for fluid and elastic solid in one system.");
-            return args.parse(argc, argv) ? run(args) : 0;
-        });
+    return runMain([&] {
+        argList args("ispfFsiFoam",
+                     "Incompressible SPH for fluid and elastic solid in one system.");
+        return args.parse(argc, argv) ? run(args) : 0;
+    });
 }
