@@ -77,11 +77,12 @@ scalar monolithic::velocityScale() const
     return std::max({u, c_.walls->maxWallSpeed(), scalar(0)});
 }
 
-// No limit of stability: the fluid's motion per step alone, for accuracy
+// No limit of stability; where the step is adjusted, the fluid's motion rules it for accuracy
 couplingScheme::stepLimit monolithic::limit() const
 {
     const scalar u = velocityScale();
-    return {u > 0 ? 0.4 * c_.kernel->h() / u : 1e30, "CFL"};
+    if (!c_.time.adjustTimeStep() || u == 0) return {1e30, "no"};
+    return {0.4 * c_.kernel->h() / u, "CFL"};
 }
 
 void monolithic::structureState()

@@ -8,8 +8,8 @@ namespace
 {
 
 // Adds sum g (x_j - x_i)^T = -sum F d d^T over [from, to), d = x_i - x_j
-ISPF_HOT void moment(const particleCloud& cloud, const neighbourList& list, label i, std::int64_t from,
-                     std::int64_t to, tensor& m)
+ISPF_HOT void moment(const particleCloud& cloud, const neighbourList& list, label i,
+                     std::int64_t from, std::int64_t to, tensor& m)
 {
     simd4 cx = {}, cy = {}, cz = {};
     for (std::int64_t k = from; k < to; ++k)
@@ -20,32 +20,38 @@ ISPF_HOT void moment(const particleCloud& cloud, const neighbourList& list, labe
     for (int a = 0; a < 3; ++a) m(a, 0) += cx[a], m(a, 1) += cy[a], m(a, 2) += cz[a];
 }
 
+// M^-1 with the eigenvalues of M held above `least`: beside edges and thin plates few neighbours are
+// left, and the plain inverse would blow up what little they say
+tensor boundedInverse(const tensor& M, scalar least, char& bounded)
+{
+    if (M.determinant() > 0.25) return M.inverse();  // no eigenvalue near zero: they are about 1
+    const Eigen::SelfAdjointEigenSolver<tensor> e(M);
+    bounded = e.eigenvalues()[0] < least;
+    return e.eigenvectors() * e.eigenvalues().cwiseMax(least).cwiseInverse().asDiagonal() *
+           e.eigenvectors().transpose();
+}
+
 }  // namespace
 
-void kernelCorrection::build(const particleCloud& cloud, const neighbourList& list, scalar minDetAll,
-                             scalar minDetSame)
+void kernelCorrection::build(const particleCloud& cloud, const neighbourList& list,
+                             scalar leastEigenvalue)
 {
     const label n = cloud.n();
     all.resize(n), same.resize(n);
-    List<char> poor(n, 0);
+    List<char> poorAll(n, 0), poorSame(n, 0);
     const tensor start = vector(0, 0, cloud.nDims == 2 ? 1 : 0).asDiagonal();
-    parallelFor(n,
-                [&](label begin, label end)
-                {
-                    for (label i = begin; i < end; ++i)
-                    {
-                        tensor m = start;
-                        moment(cloud, list, i, list.start[i], list.mid[i], m);
-                        const bool poorSame = !(m.determinant() > minDetSame);
-                        same[i] = poorSame ? tensor(tensor::Zero()) : tensor(m.inverse());
-                        moment(cloud, list, i, list.mid[i], list.start[i + 1], m);
-                        const bool poorAll = !(m.determinant() > minDetAll);
-                        all[i] = poorAll ? tensor(tensor::Identity()) : tensor(m.inverse());
-                        poor[i] = char(poorAll + 2 * poorSame);
-                    }
-                });
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            tensor m = start;
+            moment(cloud, list, i, list.start[i], list.mid[i], m);
+            same[i] = boundedInverse(m, leastEigenvalue, poorSame[i]);
+            moment(cloud, list, i, list.mid[i], list.start[i + 1], m);
+            all[i] = boundedInverse(m, leastEigenvalue, poorAll[i]);
+        }
+    });
     nPoorAll = nPoorSame = 0;
-    for (const char p : poor) nPoorAll += p & 1, nPoorSame += p >> 1;
+    for (label i = 0; i < n; ++i) nPoorAll += poorAll[i], nPoorSame += poorSame[i];
 }
 
 }  // namespace ispf
