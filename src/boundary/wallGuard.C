@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wallGuard.H"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ispf
@@ -43,6 +44,15 @@ struct pusher
     }
 };
 
+// A particle put back keeps no velocity into the wall: its inertia would press on, step after step
+void putBack(particleCloud& cloud, label i, const vector& x, const vector& wallVelocity)
+{
+    const vector off = (x - cloud.x[i].xyz()).normalized();
+    const vector u = cloud.Up[i].xyz();
+    cloud.Up[i].setXyz(u - std::min((u - wallVelocity).dot(off), 0.0) * off);
+    cloud.x[i].setXyz(x);
+}
+
 }  // namespace
 
 List<label> wallGuard::apply(particleCloud& cloud, const wallSet& walls) const
@@ -74,7 +84,7 @@ List<label> wallGuard::apply(particleCloud& cloud, const wallSet& walls) const
                     if (hit[k] < 0) hit[k] = body.walls[patch];
                 }
             }
-            if (hit[k] >= 0) cloud.x[i].setXyz(x);
+            if (hit[k] >= 0) putBack(cloud, i, x, walls.walls()[hit[k]].velocity);
         }
     });
     List<label> pushed(walls.walls().size(), 0);
