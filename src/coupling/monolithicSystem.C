@@ -48,6 +48,7 @@ void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce
         vector m = mass / dt_ * cloud.Up[i].xyz() - viscousFactor() * lap_[i].xyz();
         if (!c_.bodyForce.empty()) m += mass * c_.bodyForce[cloud.zone[i]];
         if (i < label(springForce.size())) m += springForce[i].xyz();
+        if (cloud.nDims == 2) m[2] = 0;
         for (int a = 0; a < 3; ++a) b[4 * i + a] = cloud.uFixed[i] ? 0 : m[a] / diagonal_[i];
         b[4 * i + 3] = cloud.pFixed[i] ? cloud.pGiven[i] : cloud.dx * (q[i] - gp_[i][3] - cp_[i]);
     }
@@ -78,6 +79,7 @@ void monolithicSystem::apply(const List<scalar>& x, List<scalar>& y) const
             if (K_ && i < nSolid) m += dt_ * Ku_[i].s;
             m /= diagonal_[i];
             if (cloud.uFixed[i]) m = phi_[i].s;
+            if (cloud.nDims == 2) m[2] = phi_[i].s[2];  // no equation across the plane
             for (int a = 0; a < 3; ++a) y[4 * i + a] = m[a];
             y[4 * i + 3] = cloud.pFixed[i] ? phi_[i].s[3] : cloud.dx * (gp_[i].s[3] - cp_[i]);
         }
