@@ -11,7 +11,8 @@ namespace ispf
 namespace
 {
 
-constexpr size_t depthLimit = 200;  // of nested dictionaries; far beyond any sensible case
+constexpr size_t depthLimit = 200;       // of nested dictionaries; far beyond any sensible case
+constexpr size_t lengthLimit = 2000000;  // of a value: macros of macros grow without bound
 
 }  // namespace
 
@@ -85,6 +86,7 @@ void dictionaryParser::parseStatements(source& in, const token* opening)
 
 void dictionaryParser::parseEntry(const token& key, source& in)
 {
+    if (key.text.empty()) fail("A keyword is wanted here, found an empty string.", key);
     scalar number;
     if (key.kind == token::plain && readNumber(key.text, number))
         fail("A keyword is wanted here, found the number " + key.text +
@@ -168,6 +170,8 @@ void dictionaryParser::appendMacro(const token& name, List<token>& value)
     {
         if (e->isDict)
             fail("$" + name.text + " is a dictionary and cannot stand inside a value.", name);
+        if (value.size() + e->value.size() > lengthLimit)
+            fail("The value grows beyond " + std::to_string(lengthLimit) + " words.", name);
         markRead(*e);
         value.insert(value.end(), e->value.begin(), e->value.end());
     }
@@ -271,6 +275,10 @@ dictionaryEntry* dictionaryParser::place(const token& key, bool isDict)
 
 void dictionaryParser::merge(dictionary::content& to, const dictionary::content& from)
 {
+    if (scopes_.size() > depthLimit)
+        throw fatalError(
+            "Macros nest dictionaries deeper than " + std::to_string(depthLimit) + " levels.",
+            to.where());
     scopes_.push_back(&to);
     for (const dictionaryEntry& f : from.entries)
     {

@@ -33,12 +33,6 @@ ISPF_HOT void productRange(const rows& A, label begin, label end, const scalar* 
     for (label i = begin; i < end; ++i) y[i] = rowProduct(A, i, x);
 }
 
-ISPF_HOT void residualRange(const rows& A, label begin, label end, const scalar* x, const scalar* b,
-                            scalar* r)
-{
-    for (label i = begin; i < end; ++i) r[i] = b[i] - rowProduct(A, i, x);
-}
-
 rows rowsOf(const csrMatrix& A)
 {
     return {A.rowStart.data(), A.column.data(), A.value.data(), A.diagonal.data()};
@@ -51,14 +45,6 @@ void csrMatrix::apply(const List<scalar>& x, List<scalar>& y) const
     const rows A = rowsOf(*this);
     parallelFor(size(),
                 [&](label begin, label end) { productRange(A, begin, end, x.data(), y.data()); });
-}
-
-void csrMatrix::residual(const List<scalar>& b, const List<scalar>& x, List<scalar>& r) const
-{
-    const rows A = rowsOf(*this);
-    parallelFor(size(), [&](label begin, label end) {
-        residualRange(A, begin, end, x.data(), b.data(), r.data());
-    });
 }
 
 void csrMatrix::check() const

@@ -125,11 +125,20 @@ TEST_CASE("broken files: what is wrong, and the line to look at")
     CHECK_ERROR(parsed("/* open\n a 1;"), "comment /* begun here is never closed", 1);
     CHECK_ERROR(parsed("x #{ open\n a 1;"), "never closed", 1);
     CHECK_ERROR(parsed("a 1;\n5 b;"), "found the number 5", 2);
+    CHECK_ERROR(parsed("a 1;\n\"\" 2;"), "an empty string", 2);
     CHECK_ERROR(parsed("(a b);"), "keyword is wanted", 1);
     CHECK_ERROR(parsed(word("a 1;\0b", 6)), "not a text file", 1);
     word deep;
     for (int k = 0; k < 300; ++k) deep += "a {";
     CHECK_ERROR(parsed(deep), "nested deeper than 200", 1);
+    word deeper = "a { x 1; }";
+    for (int k = 0; k < 300; ++k) deeper += "\na { a { $:a } }";
+    CHECK_ERROR(parsed(deeper), "nest dictionaries deeper than 200", 0);
+    word longer = "a0 (1 2 3 4);";
+    for (int k = 0; k < 40; ++k)
+        longer += "\na" + std::to_string(k + 1) + " ($a" + std::to_string(k) + " $a" +
+                  std::to_string(k) + ");";
+    CHECK_ERROR(parsed(longer), "grows beyond", 0);
 }
 
 TEST_CASE("harmless oddities: no final newline, CRLF, byte order mark, stray semicolons")

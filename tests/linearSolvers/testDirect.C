@@ -88,6 +88,12 @@ TEST_CASE("Cholesky and LU solve to round-off, again after new values")
         CHECK(relativeResidual(skew, b, x) < 1e-12);
         for (scalar& d : lattice.A.diagonal) d *= 1.5;
     }
+    const jitteredLattice other(8, 9, 10, c);
+    x.resize(other.A.size());
+    const List<scalar> right = randomVector(other.A.size(), 1);
+    cholesky.factorise(other.A);
+    cholesky.apply(right, x);
+    CHECK(relativeResidual(other.A, right, x) < 1e-12);
     for (scalar& d : lattice.A.diagonal) d = -d;
     CHECK_THROWS_AS(cholesky.factorise(lattice.A), fatalError);
     CHECK_THROWS_AS(lu.factorise(csrMatrix::fromTriplets(2, {{0, 0, 1.0}})), fatalError);
@@ -113,6 +119,19 @@ TEST_CASE("a floating part is solved with zero mean")
     floating.project(projected);
     for (size_t i = 0; i < x.size(); ++i)
         CHECK(projected[i] == doctest::Approx(x[i]).epsilon(1e-9));
+}
+
+TEST_CASE("a chain of whole numbers that nothing holds is pinned")
+{
+    const csrMatrix chain = csrMatrix::fromTriplets(
+        3, {{0, 0, 1}, {0, 1, -1}, {1, 0, -1}, {1, 1, 2}, {1, 2, -1}, {2, 1, -1}, {2, 2, 1}});
+    choleskySolver cholesky;
+    cholesky.factorise(chain);
+    List<scalar> x(3);
+    cholesky.apply({1, 0, -1}, x);
+    CHECK(x[0] == doctest::Approx(1));
+    CHECK(x[1] == doctest::Approx(0));
+    CHECK(x[2] == doctest::Approx(-1));
 }
 
 TEST_CASE("3x3 blocks: product, expansion, Cholesky")

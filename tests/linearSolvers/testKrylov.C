@@ -139,6 +139,23 @@ TEST_CASE("DIC saves iterations, and small blocks cost some")
     CHECK(2 * whole < diagonal);
 }
 
+TEST_CASE("DIC and DILU are exact on a chain")
+{
+    List<csrMatrix::triplet> entries;
+    const label n = 50;
+    for (label i = 0; i < n; ++i)
+    {
+        entries.push_back({i, i, 2 + 0.1 * i});
+        if (i > 0)
+            entries.push_back({i, i - 1, -1}), entries.push_back({i - 1, i, -0.5 - 0.01 * i});
+    }
+    const csrMatrix A = csrMatrix::fromTriplets(n, entries);
+    const List<scalar> b = randomVector(n, 1);
+    List<scalar> z(n);
+    incompleteFactor(A, "DILU").apply(b, z);
+    CHECK(relativeDifference(z, denseSolution(A, b)) < 1e-13);
+}
+
 TEST_CASE("flexible methods bear a preconditioner that varies")
 {
     const jitteredLattice lattice = heldLattice(10);
@@ -257,6 +274,51 @@ TEST_CASE("what goes wrong is told")
                           .line();
     CHECK(line.rfind("DICPCG:  Solving for p, Initial residual = 1, Final residual = ", 0) == 0);
     CHECK(line.find(", No Iterations 2") != word::npos);
+}
+
+TEST_CASE("FGMRES: nearly parallel vectors are made orthogonal a second time")
+{
+    // One row far larger than the others: almost all of each product lies along it, that is, in the
+    // basis already
+    const label n = 80;
+    List<csrMatrix::triplet> entries = {{0, 0, 1e10}};
+    for (label i = 1; i < n; ++i) entries.push_back({i, i, scalar(i)});
+    const csrMatrix A = csrMatrix::fromTriplets(n, entries);
+    const List<scalar> b = randomVector(n, 1);
+    List<scalar> x(n, 0);
+    const auto done = FGMRES(controls(1e-12, 100), "p", 100).solve(A, noPreconditioner(), b, x);
+    CHECK(done.converged);  // made orthogonal once only, it ends at 1e-4
+}
+
+TEST_CASE("what goes wrong inside FGMRES")
+{
+    jitteredLattice::choices floating;
+    const jitteredLattice lattice(6, 6, 6, floating);
+    const noPreconditioner none;
+    // Nothing holds the constant, and b asks for it
+    List<scalar> b(lattice.A.size(), 1), x(b.size(), 0);
+    b[0] = 2;
+    CHECK(FGMRES(controls(1e-8), "p", 10).solve(lattice.A, none, b, x).status ==
+          solverStatus::stagnated);
+
+    class failing : public noPreconditioner
+    {
+    public:
+        void apply(const List<scalar>& r, List<scalar>& z) const override
+        {
+            z = r;
+            if (++count_ == 4) z[0] = std::numeric_limits<scalar>::quiet_NaN();
+        }
+
+    private:
+        mutable label count_ = 0;
+    };
+    const jitteredLattice held = heldLattice(6);
+    x.assign(b.size(), 0);
+    const auto done = FGMRES(controls(1e-8), "p").solve(held.A, failing(), b, x);
+    CHECK(done.status == solverStatus::notFinite);
+    CHECK(done.nIterations == 3);
+    CHECK(relativeResidual(held.A, b, x) == doctest::Approx(done.finalResidual).epsilon(1e-9));
 }
 
 TEST_CASE("one thread and two give the same bits")

@@ -59,8 +59,8 @@ TEST_CASE("multigrid: one face held")
     jitteredLattice::choices c;
     c.held = topHeld;
     const jitteredLattice lattice(edge, edge, edge, c);
-    CHECK(iterations(lattice, "K") <= 13);
-    CHECK(iterations(lattice, "V") <= 14);
+    CHECK(iterations(lattice, "K") <= 12);
+    CHECK(iterations(lattice, "V") <= 12);
 }
 
 TEST_CASE("multigrid: wider support")
@@ -69,8 +69,8 @@ TEST_CASE("multigrid: wider support")
     c.held = topHeld;
     c.support = 2.6;
     const jitteredLattice lattice(edge, edge, edge, c);
-    CHECK(iterations(lattice, "K") <= 13);
-    CHECK(iterations(lattice, "V") <= 14);
+    CHECK(iterations(lattice, "K") <= 11);
+    CHECK(iterations(lattice, "V") <= 11);
 }
 
 TEST_CASE("multigrid: thin wall without coupling, open at one end")
@@ -95,6 +95,13 @@ TEST_CASE("multigrid: nothing held, two floating parts")
     const constantNullSpace walked = constantNullSpace::of(lattice.A);
     CHECK(multigrid.nullSpace().nSets() == 2);
     CHECK(multigrid.nullSpace().set() == walked.set());
+    List<scalar> z(lattice.A.size());
+    multigrid.apply(randomVector(lattice.A.size(), 3), z);
+    List<scalar> projected(z);
+    multigrid.nullSpace().project(projected);
+    scalar moved = 0;
+    for (size_t i = 0; i < z.size(); ++i) moved = std::max(moved, std::abs(z[i] - projected[i]));
+    CHECK(moved < 1e-12 * norm(z));
     CHECK(iterations(lattice, "K") <= 13);
     CHECK(iterations(lattice, "V") <= 14);
 }
@@ -126,7 +133,8 @@ TEST_CASE("multigrid: periodic box, thin shell, flat, long channel")
     jitteredLattice::choices c;
     c.period = 28;
     const jitteredLattice periodic(28, 28, 28, c);
-    CHECK(iterations(periodic, "K") <= 13);
+    CHECK(iterations(periodic, "K") <= 12);
+    CHECK(iterations(periodic, "V") <= 13);
     c.period = 0;
     c.held = [](const vector& x) { return x[1] < 1 ? 0.5 : 0; };
     CHECK(iterations({130, 130, 1, c}, "K") <= 13);
@@ -149,8 +157,41 @@ TEST_CASE("multigrid: rows without couplings, drops, and a stray point far away"
     const auto stray = std::find(lattice.A.diagonal.begin(), lattice.A.diagonal.end(), 7);
     lattice.x[stray - lattice.A.diagonal.begin()] = vector(1e6, -1e6, 1e6);
     CHECK(iterations(lattice, "K") <= 13);
-    const cellMultigrid multigrid(lattice.A, lattice.x, options(lattice, "V"));
+    multigridOptions o = options(lattice, "V");
+    o.omega = 1.2;
+    const cellMultigrid multigrid(lattice.A, lattice.x, o);
     CHECK(multigrid.nullSpace().nSets() == 1);  // below the layer
+    List<scalar> z(lattice.A.size());
+    const List<scalar> r = randomVector(lattice.A.size(), 3);
+    multigrid.apply(r, z);
+    for (size_t i = 0; i < r.size(); ++i)
+        if (lattice.A.diagonal[i] == 7) CHECK(z[i] == doctest::Approx(r[i] / 7).epsilon(1e-6));
+}
+
+TEST_CASE("multigrid: small systems are solved exactly, the singular one too")
+{
+    // A chain with whole numbers: without its pin the coarsest matrix is singular to the last bit
+    List<csrMatrix::triplet> entries;
+    List<vector> x(20);
+    for (label i = 0; i < 20; ++i)
+    {
+        x[i] = vector(i, 0, 0);
+        entries.push_back({i, i, i == 0 || i == 19 ? 1.0 : 2.0});
+        if (i > 0) entries.push_back({i, i - 1, -1}), entries.push_back({i - 1, i, -1});
+    }
+    csrMatrix A = csrMatrix::fromTriplets(20, entries);
+    multigridOptions o;
+    o.cellSize = 2;
+    List<scalar> b = randomVector(20, 3), z(20);
+    for (const scalar held : {0, 1})
+    {
+        A.diagonal[0] += held;
+        const cellMultigrid multigrid(A, x, o);
+        CHECK(multigrid.nullSpace().nSets() == (held > 0 ? 0 : 1));
+        multigrid.nullSpace().project(b);
+        multigrid.apply(b, z);
+        CHECK(relativeResidual(A, b, z) < 1e-5);
+    }
 }
 
 TEST_CASE("multigrid: groups never share an aggregate")
