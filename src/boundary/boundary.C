@@ -3,6 +3,7 @@
 #include "openFace.H"
 #include "siteFile.H"
 #include "wallGuard.H"
+#include "wallVisibility.H"
 
 #include <algorithm>
 
@@ -14,6 +15,7 @@ struct boundary::content
     imageGroup group;
     wallSet walls;
     wallGuard guard;
+    wallVisibility visibility;
     List<openFace> openFaces;
     List<label> openIndex;  // of an open face in the balance
     List<patchBalance> balance;
@@ -80,6 +82,7 @@ boundary::boundary(const word& caseFolder, const dictionary& patches, const part
     c.group.close(cloud, support);
     c.walls.read(caseFolder, patches, c.group, cloud, support);
     c.walls.setStep(0, 1);
+    c.visibility.find(c.walls, support);
     c.addOpenFaces(caseFolder, patches, cloud);
 }
 
@@ -104,9 +107,9 @@ void boundary::updateGhosts(particleCloud& cloud) const
     content_->group.addImages(cloud);
 }
 
-neighbourList::visibility boundary::visible(const particleCloud&) const
+neighbourList::visibility boundary::visible(const particleCloud& cloud) const
 {
-    return nullptr;
+    return content_->visibility.test(cloud, content_->walls);
 }
 
 // Fluid that stepped over a symmetry plane is reflected, over a cyclic side carried to the other
@@ -150,6 +153,7 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
         b.created += c.openFaces[k].fill(cloud);
     }
     if (!c.walls.empty()) c.guard.remember(cloud, c.walls);
+    c.walls.cover(cloud);
     return pushed;
 }
 

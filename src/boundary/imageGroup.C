@@ -70,6 +70,13 @@ List<std::pair<vector, vector>> imageGroup::symmetryPlanes() const
     return planes;
 }
 
+List<std::pair<vector, vector>> imageGroup::planes() const
+{
+    List<std::pair<vector, vector>> planes;
+    for (const side& s : sides_) planes.push_back({s.point, s.normal});
+    return planes;
+}
+
 scalar imageGroup::beyond(const vector& x) const
 {
     scalar most = -std::numeric_limits<scalar>::infinity();

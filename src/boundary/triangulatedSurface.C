@@ -177,6 +177,7 @@ public:
     }
 
     vector areaVector(label patch) const override { return area_[patch]; }
+    const triSurface* mesh() const override { return &search_.surface(); }
     scalar curvature() const override { return growth_; }
     bool surelyFar(const vector& x) const override { return raster_.far(x); }
 

@@ -15,6 +15,8 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
     if (empty()) return;
     makeBodies(caseFolder, patches, group, support + cloud.dx);
     readRigid(caseFolder, patches);
+    lattice_.set(group, cloud, support);
+    lattice_.cover(cloud, walls_);
 }
 
 void wallSet::makeBodies(const word& caseFolder, const dictionary& patches, const imageGroup& group,
@@ -64,7 +66,11 @@ List<scalar> wallSet::moveTo(scalar t)
         for (size_t k = 0; k < b.walls.size(); ++k)
         {
             const label w = b.walls[k];
-            swept[w] = -(walls_[w].offset - from[w]).dot(b.surface->areaVector(label(k)));
+            const vector moved = walls_[w].offset - from[w];
+            const vector area = walls_[w].plane
+                                    ? lattice_.area(walls_[w], walls_) * walls_[w].normal
+                                    : b.surface->areaVector(label(k));
+            swept[w] = -moved.dot(area);
         }
     return swept;
 }

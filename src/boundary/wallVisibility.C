@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wallVisibility.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+// Does a wall that faces the other way lie within `support` behind triangle t?  Asked at points no
+// further than half a support apart
+bool isThin(const surfaceSearch& search, label t, scalar support)
+{
+    const triSurface& s = search.surface();
+    const vector n = s.normal(t), a = s.corner(t, 0);
+    const vector e1 = s.corner(t, 1) - a, e2 = s.corner(t, 2) - a;
+    const scalar longest = std::max({e1.norm(), e2.norm(), (e1 - e2).norm()});
+    const int m = std::clamp(int(std::ceil(2 * longest / support)), 1, 20);
+    for (int i = 0; i <= m; ++i)
+        for (int j = 0; i + j <= m; ++j)
+        {
+            // drawn in a little, so that neighbours across an edge are not hit
+            const scalar p = 0.02 + 0.94 * i / m, q = 0.02 + 0.94 * j / m;
+            const vector from = a + p * e1 + q * e2 + 1e-6 * support * n;
+            const surfaceHit hit = search.firstHit(from, from + support * n);
+            if (hit.found && s.normal(hit.triangle).dot(n) < -0.05) return true;
+        }
+    return false;
+}
+
+// The nearest wall of every fluid particle and image near the thin part; positions in its frame
+struct wallView
+{
+    struct place
+    {
+        vector foot, normal;
+    };
+    const particleCloud& cloud;
+    const patchSurface& surface;
+    vector offset;
+    scalar margin;
+    List<label> slot;  // -1: far
+    List<place> places;
+
+    wallView(const particleCloud& c, const patchSurface& s, const vector& o, scalar m)
+        : cloud(c), surface(s), offset(o), margin(m), slot(c.nAll(), -1)
+    {
+        List<label> near;
+        for (label i = 0; i < c.nAll(); ++i)
+            if (c.phase[i] == phaseType::fluid && !s.surelyFar(c.x[i].xyz() - o))
+                slot[i] = label(near.size()), near.push_back(i);
+        places.resize(near.size());
+        parallelFor(
+            label(near.size()),
+            [&](label begin, label end) {
+                for (label k = begin; k < end; ++k)
+                {
+                    const surfaceFoot f = s.find(c.x[near[k]].xyz() - o);
+                    places[k] = {f.foot, f.normal};
+                    if (!f.found) slot[near[k]] = -1;
+                }
+            },
+            256);
+    }
+
+    bool behind(label of, const vector& x) const
+    {
+        const place& p = places[of];
+        return (x - p.foot).dot(p.normal) > -margin;
+    }
+
+    bool parts(label i, label j) const
+    {
+        const label a = slot[i], b = slot[j];
+        if (a < 0 || b < 0) return false;
+        const vector xi = cloud.x[i].xyz() - offset, xj = cloud.x[j].xyz() - offset;
+        return behind(a, xj) && behind(b, xi) && surface.crosses(xi, xj);
+    }
+};
+
+}  // namespace
+
+void wallVisibility::find(const wallSet& walls, scalar support)
+{
+    margin_ = 0.1 * support;
+    for (size_t b = 0; b < walls.bodies().size(); ++b)
+    {
+        const triSurface* mesh = walls.bodies()[b].surface->mesh();
+        if (!mesh) continue;
+        const surfaceSearch search(*mesh);
+        List<char> thin(mesh->size(), 0);
+        parallelFor(
+            mesh->size(),
+            [&](label begin, label end) {
+                for (label t = begin; t < end; ++t) thin[t] = isThin(search, t, support);
+            },
+            64);
+        triSurface part = mesh->subset([&](label t) { return thin[t] != 0; });
+        if (part.empty()) continue;
+        parts_.push_back({b, patchSurface::triangles(std::move(part), imageGroup(), support)});
+    }
+}
+
+neighbourList::visibility wallVisibility::test(const particleCloud& cloud,
+                                               const wallSet& walls) const
+{
+    if (parts_.empty()) return nullptr;
+    const auto views = std::make_shared<List<wallView>>();
+    for (const thinPart& p : parts_)
+        views->emplace_back(cloud, *p.surface, walls.offset(walls.bodies()[p.body]), margin_);
+    return [views](label i, label j) {
+        for (const wallView& view : *views)
+            if (view.parts(i, j)) return false;
+        return true;
+    };
+}
+
+}  // namespace ispf
