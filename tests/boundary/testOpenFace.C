@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Ten flow reversals through open faces of every shape, with a prescribed divergence-free velocity:
+// the zone must keep its number of particles and have no gap.
+#include <doctest/doctest.h>
+#include "scene.H"
+
+using namespace scene;
+
+namespace
+{
+
+struct reversal
+{
+    std::map<word, triSurface> open;
+    word otherPatches;  // dictionary text
+    region zone;        // true inside all open faces
+    region strip;       // true up to 1.5 dx beyond them
+    vector low, high;   // box of the zone
+    std::function<vector(const vector&)> velocity;  // times cos(2 pi t): displacement ~ 1/(2 pi)
+    vector shift = vector::Zero();                  // of the lattice
+};
+
+struct outcome
+{
+    label before, after;
+    scalar worstCount = 0;  // over the run, relative
+    scalar hole = 0;        // [dx], largest distance of a point of the zone from a particle
+    label created, deleted;
+};
+
+outcome run(const reversal& r, int cycles, int stepsPerCycle)
+{
+    const scalar dx = 1;
+    folder f;
+    const vector margin = vector::Constant(3 * dx);
+    word text = r.otherPatches;
+    const auto beyond = lattice(dx, r.low - margin, r.high + margin,
+                                [&](const vector& x) { return !r.zone(x) && r.strip(x); }, 3, r.shift);
+    std::map<word, List<vector>> sites;
+    for (const auto& [name, surface] : r.open)
+    {
+        f.surface(name, surface);
+        sites[name] = beyond;
+        text += name + " { type open; p 0; }\n";
+    }
+    f.points("openSites.hdf", sites);
+    List<vector> all = lattice(dx, r.low - margin, r.high + margin, r.zone, 3, r.shift);
+    all.insert(all.end(), beyond.begin(), beyond.end());
+    particleCloud cloud = fluid(all, dx);
+    boundary b(f.path, dictionary::fromString(text), cloud, 2.6 * dx);
+
+    const auto inside = [&]
+    {
+        label n = 0;
+        for (label i = 0; i < cloud.n(); ++i) n += r.zone(cloud.x[i].xyz());
+        return n;
+    };
+    outcome o;
+    o.before = inside();
+    const scalar dt = 1.0 / stepsPerCycle;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<scalar> unit(0, 1);
+    for (int step = 0; step < cycles * stepsPerCycle; ++step)
+    {
+        const scalar t = step * dt;
+        b.setStep(t, t + dt);
+        b.setFlags(cloud);
+        cloud.sortFluid(2.6 * dx);
+        for (label i = 0; i < cloud.n(); ++i)
+        {
+            const vector x = cloud.x[i].xyz();
+            const vector u = std::cos(2 * M_PI * (t + 0.5 * dt)) * r.velocity(x);
+            const vector mid = x + 0.5 * dt * u;
+            const vector v = std::cos(2 * M_PI * (t + 0.5 * dt)) * r.velocity(mid);
+            cloud.Up[i] = vec4::from(v), cloud.x[i].setXyz(x + dt * v);
+        }
+        b.exchange(cloud, t + dt);
+        o.worstCount = std::max(o.worstCount, std::abs(scalar(inside()) / o.before - 1));
+        if (step % 7) continue;
+        b.updateGhosts(cloud);
+        const nearestParticle near(cloud, 2 * dx);
+        for (int k = 0; k < 20000; ++k)
+        {
+            vector x;
+            for (int d = 0; d < 3; ++d) x[d] = r.low[d] + unit(random) * (r.high[d] - r.low[d]);
+            if (r.zone(x)) o.hole = std::max(o.hole, near.distance(x) / dx);
+        }
+    }
+    o.after = inside();
+    o.created = o.deleted = 0;
+    for (const patchBalance& p : b.balance()) o.created += p.created, o.deleted += p.deleted;
+    return o;
+}
+
+void report(const char* name, const outcome& o)
+{
+    MESSAGE(name << ": before " << o.before << " after " << o.after << " ("
+                 << 100.0 * (o.after - o.before) / o.before << " %), worst "
+                 << 100 * o.worstCount << " %, hole " << o.hole << " dx, created " << o.created
+                 << ", deleted " << o.deleted);
+}
+
+const char* sidesXY =
+    "xLow { type cyclic; point (0 0 0); separation (12 0 0); }"
+    "yLow { type cyclic; point (0 0 0); separation (0 12 0); }";
+
+}  // namespace
+
+TEST_CASE("flat faces")
+{
+    reversal r;
+    r.low = {0, 0, 0}, r.high = {12, 12, 16};
+    const auto column = [](const vector& x) { return x[0] > 0 && x[0] < 12 && x[1] > 0 && x[1] < 12; };
+    r.zone = [=](const vector& x) { return column(x) && x[2] > 0 && x[2] < 16; };
+    r.strip = [=](const vector& x) { return column(x) && x[2] > -1.6 && x[2] < 17.6; };
+    r.open["top"] = sheet({0, 0, 16}, {12, 0, 0}, {0, 12, 0}, 4);
+    r.open["bottom"] = sheet({0, 0, 0}, {0, 12, 0}, {12, 0, 0}, 4);
+    r.otherPatches = sidesXY;
+    for (const scalar amplitude : {0.4, 2.0, 5.0})
+    {
+        r.velocity = [=](const vector&) -> vector { return 2 * M_PI * amplitude * vector(0, 0, 1); };
+        report("flat", run(r, 10, 100));
+    }
+}
+
+TEST_CASE("oblique face")
+{
+    reversal r;
+    r.low = {0, 0, 0}, r.high = {12, 12, 22};
+    const auto column = [](const vector& x) { return x[0] > 0 && x[0] < 12 && x[1] > 0 && x[1] < 12; };
+    const scalar c = 1 / std::sqrt(1.25);
+    const auto depth = [=](const vector& x) { return (x[2] - 16 - 0.5 * x[0]) * c; };
+    r.zone = [=](const vector& x) { return column(x) && x[2] > 0 && depth(x) < 0; };
+    r.strip = [=](const vector& x) { return column(x) && x[2] > -1.6 && depth(x) < 1.5; };
+    r.open["top"] = sheet({0, 0, 16}, {12, 0, 6}, {0, 12, 0}, 4);
+    r.open["bottom"] = sheet({0, 0, 0}, {0, 12, 0}, {12, 0, 0}, 4);
+    r.otherPatches =
+        "x0 { type symmetryPlane; point (0 0 0); normal (-1 0 0); }"
+        "x1 { type symmetryPlane; point (12 0 0); normal (1 0 0); }"
+        "yLow { type cyclic; point (0 0 0); separation (0 12 0); }";
+    for (const scalar amplitude : {0.4, 2.0, 5.0})
+    {
+        r.velocity = [=](const vector&) -> vector { return 2 * M_PI * amplitude * vector(0, 0, 1); };
+        report("oblique", run(r, 10, 100));
+    }
+}
+
+TEST_CASE("dome")
+{
+    reversal r;
+    const scalar R = 12;
+    r.low = {0, 0, 0}, r.high = {R, R, 8 + R};
+    const auto quarter = [](const vector& x) { return x[0] > 0 && x[1] > 0; };
+    const auto depth = [=](const vector& x)
+    {
+        const scalar rho = std::hypot(x[0], x[1]);
+        return x[2] < 8 ? rho - R : std::hypot(rho, x[2] - 8) - R;
+    };
+    r.zone = [=](const vector& x) { return quarter(x) && x[2] > 0 && depth(x) < 0; };
+    r.strip = [=](const vector& x) { return quarter(x) && x[2] > -1.6 && depth(x) < 1.5; };
+    const auto outward = [](const vector& x) { return vector(x[0], x[1], std::max(0.0, x[2] - 8)); };
+    triSurface dome = parametric(
+        [=](scalar s, scalar t)
+        {
+            return vector(R * std::cos(0.5 * M_PI * t) * std::cos(0.5 * M_PI * s),
+                          R * std::cos(0.5 * M_PI * t) * std::sin(0.5 * M_PI * s),
+                          8 + R * std::sin(0.5 * M_PI * t));
+        },
+        32, 32, outward);
+    dome.append(parametric(
+        [=](scalar s, scalar t) {
+            return vector(R * std::cos(0.5 * M_PI * s), R * std::sin(0.5 * M_PI * s), 8 * t);
+        },
+        32, 8, outward));
+    r.open["dome"] = dome;
+    r.open["bottom"] = sheet({0, 0, 0}, {0, R + 3, 0}, {R + 3, 0, 0}, 4);
+    r.otherPatches =
+        "x0 { type symmetryPlane; point (0 0 0); normal (-1 0 0); }"
+        "y0 { type symmetryPlane; point (0 0 0); normal (0 -1 0); }";
+    for (const scalar amplitude : {0.4, 2.0, 5.0})
+    {
+        r.velocity = [=](const vector&) -> vector { return 2 * M_PI * amplitude * vector(0, 0, 1); };
+        report("dome", run(r, 10, 100));
+    }
+}
+
+TEST_CASE("cylinder with lid, flow across all faces")
+{
+    reversal r;
+    const scalar R = 9, H = 16;
+    r.low = {-R, -R, 0}, r.high = {R, R, H};
+    const auto rho = [](const vector& x) { return std::hypot(x[0], x[1]); };
+    r.zone = [=](const vector& x) { return rho(x) < R && x[2] > 0 && x[2] < H; };
+    r.strip = [=](const vector& x)
+    {
+        const scalar a = std::max(0.0, rho(x) - R);
+        const scalar b = std::max({0.0, -x[2], x[2] - H});
+        return std::hypot(a, b) < 1.5;
+    };
+    const auto outward = [=](const vector& x) { return vector(x[0], x[1], 0); };
+    triSurface s = parametric(
+        [=](scalar p, scalar t)
+        { return vector(R * std::cos(2 * M_PI * p), R * std::sin(2 * M_PI * p), H * t); },
+        96, 8, outward);
+    for (const scalar z : {0.0, H})
+        s.append(parametric(
+            [=](scalar p, scalar t) {
+                return vector(R * t * std::cos(2 * M_PI * p), R * t * std::sin(2 * M_PI * p), z);
+            },
+            96, 4, [=](const vector&) { return vector(0, 0, z > 0 ? 1 : -1); }));
+    r.open["outside"] = s;
+    r.shift = {0.1, 0.2, 0.3};
+    for (const scalar amplitude : {0.4, 2.0, 5.0})
+    {
+        r.velocity = [=](const vector&) -> vector
+        { return 2 * M_PI * amplitude * vector(0.6, 0, 0.8); };
+        report("cylinder", run(r, 10, 100));
+    }
+}
