@@ -61,8 +61,8 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
 {
     if (openIndex.empty()) return;
     const siteFile sites(caseFolder + "/constant/openSites.hdf");
-    const auto allowed = [&](const vector& x) {
-        return group.beyond(x) < -0.35 * cloud.dx && walls.clear(x, 0.35 * cloud.dx);
+    const auto allowed = [&](const vector& x, scalar distance) {
+        return group.beyond(x) <= -distance && walls.clear(x, distance);
     };
     for (const label index : openIndex)
     {
@@ -91,7 +91,7 @@ boundary::~boundary() = default;
 void boundary::setStep(scalar t0, scalar t1)
 {
     content_->walls.setStep(t0, t1);
-    for (openFace& face : content_->openFaces) face.setTime(t1);
+    for (openFace& face : content_->openFaces) face.setStep(t0, t1);
 }
 
 void boundary::setFlags(particleCloud& cloud) const
@@ -148,9 +148,8 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
     for (size_t k = 0; k < c.openFaces.size(); ++k)
     {
         patchBalance& b = c.balance[c.openIndex[k]];
-        c.openFaces[k].setTime(t1);
-        b.deleted += c.openFaces[k].removeBeyond(cloud);
-        b.created += c.openFaces[k].fill(cloud);
+        const openFace::change change = c.openFaces[k].exchange(cloud);
+        b.created += change.created, b.deleted += change.deleted;
     }
     if (!c.walls.empty()) c.guard.remember(cloud, c.walls);
     c.walls.cover(cloud);

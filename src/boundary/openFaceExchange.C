@@ -16,46 +16,64 @@ constexpr scalar widest = 1.2;    // [dx] a hole of this radius is filled even i
 }  // namespace
 
 // What lies near the face now
-struct openFace::strip
+struct openFace::census
 {
-    pointGrid feet, particles;
-    List<label> index;  // of the particles in the cloud
+    const particleCloud& cloud;
+    pointGrid feet;       // of the fluid in the strip
+    pointGrid particles;  // all, from 1.5 dx before the face
+    List<label> index;    // of the particles in the cloud
 
-    strip(scalar radius, scalar dx) : feet(radius), particles(1.5 * dx) {}
+    census(const particleCloud& c, scalar region) : cloud(c), feet(region), particles(1.5 * c.dx) {}
+
+    // share(j, weight) for the fluid of a zone within 1.5 dx of x; weights of sum one
+    template <class Share>
+    void around(const vector& x, std::uint8_t zone, Share&& share) const
+    {
+        List<std::pair<label, scalar>> found;
+        scalar sum = 0;
+        const scalar radius = 1.5 * cloud.dx;
+        particles.within(x, radius, [&](label k, scalar r) {
+            const label j = index[k];
+            if (!cloud.isFluid(j) || cloud.zone[j] != zone) return;
+            found.push_back({j, radius - r}), sum += radius - r;
+        });
+        for (const auto& [j, w] : found) share(j, w / sum);
+    }
 };
 
-label openFace::removeBeyond(particleCloud& cloud) const
+// The feet of particles near the face, and which lie beyond the strip
+label openFace::removeBeyond(particleCloud& cloud, List<surfaceFoot>& feet) const
 {
+    feet.assign(cloud.n(), surfaceFoot());
+    parallelFor(cloud.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            if (!surface_->surelyFar(cloud.x[i].xyz())) feet[i] = surface_->find(cloud.x[i].xyz());
+    });
     List<char> gone(cloud.n(), 0);
-    label n = 0;
+    label kept = cloud.nSolid();
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-    {
-        const vector x = cloud.x[i].xyz();
-        if (surface_->surelyFar(x)) continue;
-        const surfaceFoot f = surface_->find(x);
-        if (f.found && f.depth > depth_) gone[i] = 1, ++n;
-    }
+        if (feet[i].found && feet[i].depth > depth_) gone[i] = 1;
+        else feet[kept++] = feet[i];
+    const label n = cloud.n() - kept;
     if (n > 0) cloud.remove(gone);
     return n;
 }
 
-openFace::strip openFace::stripOf(const particleCloud& cloud) const
+openFace::census openFace::count(const particleCloud& cloud, const List<surfaceFoot>& feet) const
 {
-    strip s(radius_, dx_);
+    census c(cloud, region_);
     for (label i = 0; i < cloud.n(); ++i)
     {
-        const vector x = cloud.x[i].xyz();
-        if (surface_->surelyFar(x)) continue;
-        const surfaceFoot f = surface_->find(x);
+        const surfaceFoot& f = feet[i];
         if (!f.found || f.depth < -1.5 * dx_) continue;
-        s.particles.add(x), s.index.push_back(i);
-        if (f.depth > 0 && cloud.isFluid(i)) s.feet.add(f.foot);
+        c.particles.add(cloud.x[i].xyz()), c.index.push_back(i);
+        if (f.depth > 0 && cloud.isFluid(i)) c.feet.add(f.foot);
     }
-    return s;
+    return c;
 }
 
 // Spots in the order of their holes, the largest first; each new particle shrinks those around it
-List<label> openFace::choose(const strip& s) const
+List<label> openFace::choose(const census& c) const
 {
     using candidate = std::pair<scalar, label>;  // hole radius, spot
     const auto smaller = [](const candidate& a, const candidate& b) {
@@ -64,66 +82,75 @@ List<label> openFace::choose(const strip& s) const
     std::priority_queue<candidate, List<candidate>, decltype(smaller)> queue(smaller);
     for (label k = 0; k < label(spots_.size()); ++k)
     {
-        const scalar hole = s.particles.nearest(spots_[k].x, 1.5 * dx_);
+        const scalar hole = c.particles.nearest(spots_[k].x, 1.5 * dx_);
         if (hole >= closest * dx_) queue.push({hole, k});
     }
     List<label> chosen;
-    pointGrid added(1.5 * dx_), addedFeet(radius_);
+    pointGrid added(1.5 * dx_), addedFeet(region_);
+    const auto missing = [&](const spot& at, scalar full, scalar radius) {
+        const auto subtract = [&](label, scalar r) { full -= weight(r / radius); };
+        c.feet.within(at.foot, radius, subtract);
+        addedFeet.within(at.foot, radius, subtract);
+        return full;
+    };
+    const auto flowsOut = [&](const spot& at) {
+        scalar out = 0;
+        c.around(at.x, at.zone,
+                 [&](label j, scalar w) { out += w * c.cloud.Up[j].xyz().dot(at.normal); });
+        return out > 0;
+    };
     while (!queue.empty())
     {
         const auto [hole, k] = queue.top();
         queue.pop();
-        const spot& place = spots_[k];
-        const scalar now = added.nearest(place.x, hole);
+        const spot& at = spots_[k];
+        const scalar now = added.nearest(at.x, hole);
         if (now < closest * dx_) continue;
         if (now < hole)
         {
             queue.push({now, k});
             continue;
         }
-        scalar missing = place.full;
-        const auto subtract = [&](label, scalar r) { missing -= weight(r); };
-        s.feet.within(place.foot, radius_, subtract);
-        addedFeet.within(place.foot, radius_, subtract);
-        if (missing < 0.5 && hole < widest * dx_) continue;
-        added.add(place.x), addedFeet.add(place.foot), chosen.push_back(k);
+        const bool wanted = missing(at, at.fullNear, near_) >= 0.25 &&
+                            missing(at, at.fullRegion, region_) >= 0.5 && !flowsOut(at);
+        if (!wanted && hole < widest * dx_) continue;
+        added.add(at.x), addedFeet.add(at.foot), chosen.push_back(k);
     }
     return chosen;
 }
 
 // All fields of a newcomer are the weighted mean of its zone's particles within 1.5 dx
-void openFace::insert(particleCloud& cloud, const strip& s, const List<label>& chosen) const
+void openFace::insert(particleCloud& cloud, const census& c, const List<label>& chosen) const
 {
     const label before = cloud.n();
     for (const label k : chosen) cloud.append(spots_[k].x, spots_[k].zone, vec4{}, cloud.nextId());
-    for (size_t c = 0; c < chosen.size(); ++c)
+    for (size_t k = 0; k < chosen.size(); ++k)
     {
-        const spot& place = spots_[chosen[c]];
-        const label i = before + label(c);
-        List<std::pair<label, scalar>> share;
-        scalar sum = 0;
-        s.particles.within(place.x, 1.5 * dx_, [&](label q, scalar r) {
-            const label j = s.index[q];
-            if (!cloud.isFluid(j) || cloud.zone[j] != place.zone) return;
-            share.push_back({j, 1.5 * dx_ - r}), sum += 1.5 * dx_ - r;
+        const spot& at = spots_[chosen[k]];
+        const label i = before + label(k);
+        c.around(at.x, at.zone, [&](label j, scalar w) {
+            cloud.Up[i].s += w * cloud.Up[j].s;
+            for (auto& [name, field] : cloud.vectors) field[i].s += w * field[j].s;
+            for (auto& [name, field] : cloud.scalars) field[i] += w * field[j];
         });
-        const auto mean = [&](auto& field) {
-            for (const auto& [j, w] : share) field[i].s += w / sum * field[j].s;
-        };
-        mean(cloud.Up);
-        for (auto& [name, field] : cloud.vectors) mean(field);
-        for (auto& [name, field] : cloud.scalars)
-            for (const auto& [j, w] : share) field[i] += w / sum * field[j];
+        // it came in some time during the step: half a step ago in the mean
+        const scalar inward = -0.5 * dt_ * cloud.Up[i].xyz().dot(at.normal);
+        if (at.depth > 0.9 * depth_)
+            cloud.x[i].setXyz(at.x - std::clamp(inward, 0.0, 0.25 * dx_) * at.normal);
         cloud.Up[i][3] = given_, cloud.pFixed[i] = 1, cloud.pGiven[i] = given_;
     }
 }
 
-label openFace::fill(particleCloud& cloud) const
+openFace::change openFace::exchange(particleCloud& cloud) const
 {
-    const strip s = stripOf(cloud);
-    const List<label> chosen = choose(s);
-    if (!chosen.empty()) insert(cloud, s, chosen);
-    return label(chosen.size());
+    change c;
+    List<surfaceFoot> feet;
+    c.deleted = removeBeyond(cloud, feet);
+    const census present = count(cloud, feet);
+    const List<label> chosen = choose(present);
+    if (!chosen.empty()) insert(cloud, present, chosen);
+    c.created = label(chosen.size());
+    return c;
 }
 
 }  // namespace ispf

@@ -42,7 +42,6 @@ public:
     }
 
     vector areaVector(label) const override { return vector::Zero(); }
-    scalar curvature() const override { return 0; }
     bool surelyFar(const vector& x) const override
     {
         return std::abs((x - point_).dot(normal_)) > reach_;

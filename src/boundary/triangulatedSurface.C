@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <set>
 
 namespace ispf
@@ -100,30 +99,6 @@ List<std::uint8_t> rimBits(const triSurface& s)
     return bits;
 }
 
-// Half the sum over edges of length times angle, over the area (Steiner's formula)
-scalar meanGrowth(const triSurface& s)
-{
-    std::map<std::pair<label, label>, label> right;
-    scalar sum = 0, area = 0;
-    for (label t = 0; t < s.size(); ++t)
-        for (int k = 0; k < 3; ++k) right[{s.triangles[t][(k + 1) % 3], s.triangles[t][k]}] = t;
-    for (label t = 0; t < s.size(); ++t)
-    {
-        const vector n = s.normal(t);
-        area += s.areaVector(t).norm();
-        for (int k = 0; k < 3; ++k)
-        {
-            const auto other = right.find({s.triangles[t][k], s.triangles[t][(k + 1) % 3]});
-            if (other == right.end()) continue;
-            const vector edge = s.corner(t, (k + 1) % 3) - s.corner(t, k);
-            const vector across = n.cross(s.normal(other->second));
-            sum +=
-                0.5 * edge.norm() * std::asin(std::clamp(across.dot(edge.normalized()), -1., 1.));
-        }
-    }
-    return area > 0 ? 0.5 * sum / area : 0;
-}
-
 scalar distanceToEdge(const vector& p, const vector& a, const vector& b)
 {
     const vector e = b - a;
@@ -139,7 +114,6 @@ public:
         area_.assign(surface.patchNames.size(), vector::Zero());
         for (label t = 0; t < surface.size(); ++t) area_[surface.patch[t]] += surface.areaVector(t);
         surface.weld(1e-4 * reach);
-        growth_ = meanGrowth(surface);
         search_ = surfaceSearch(continued(std::move(surface), group, reach));
         rim_ = rimBits(search_.surface());
         raster_.build(search_, reach);
@@ -178,7 +152,6 @@ public:
 
     vector areaVector(label patch) const override { return area_[patch]; }
     const triSurface* mesh() const override { return &search_.surface(); }
-    scalar curvature() const override { return growth_; }
     bool surelyFar(const vector& x) const override { return raster_.far(x); }
 
 private:
@@ -197,7 +170,7 @@ private:
         return false;
     }
 
-    scalar reach_, growth_ = 0;
+    scalar reach_;
     surfaceSearch search_;
     raster raster_;
     List<std::uint8_t> rim_;

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "openFace.H"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace ispf
+{
+
+namespace
+{
+
+constexpr int perCell = 3;  // sample points of a cell along each axis
+
+// Two unit vectors across n; in two dimensions one in the plane
+List<vector> tangents(const vector& n, int nDims)
+{
+    if (nDims == 2) return {vector(-n[1], n[0], 0).normalized()};
+    const vector across = n.unitOrthogonal();
+    return {across, n.cross(across)};
+}
+
+// The points of a fine raster within 1.5 dx of a site
+List<vector> samplesAround(const List<vector>& sites, scalar dx, int nDims)
+{
+    const scalar fine = dx / perCell;
+    const int reach = perCell * 3 / 2, reachZ = nDims == 3 ? reach : 0;
+    std::set<std::array<int, 3>> cells;
+    for (const vector& x : sites)
+    {
+        int c[3];
+        for (int d = 0; d < 3; ++d) c[d] = int(std::floor(x[d] / fine));
+        for (int i = -reach; i <= reach; ++i)
+            for (int j = -reach; j <= reach; ++j)
+                for (int k = -reachZ; k <= reachZ; ++k)
+                    cells.insert({c[0] + i, c[1] + j, nDims == 3 ? c[2] + k : 0});
+    }
+    List<vector> points;
+    for (const auto& c : cells)
+        points.push_back(fine * vector(c[0] + 0.5, c[1] + 0.5, nDims == 3 ? c[2] + 0.5 : 0));
+    return points;
+}
+
+}  // namespace
+
+// Feet of sample points that fill the strip: what a full strip weighs, however the sites lie in it.
+// Beside the surface's rim the strip reaches as far as there are sites.
+pointGrid openFace::sampleFeet(const List<vector>& sites, int nDims, const place& allowed) const
+{
+    pointGrid known(dx_), feet(region_);
+    for (const vector& x : sites) known.add(x);
+    const List<vector> points = samplesAround(sites, dx_, nDims);
+    List<surfaceFoot> found(points.size());
+    parallelFor(
+        label(points.size()),
+        [&](label begin, label end) {
+            for (label k = begin; k < end; ++k)
+            {
+                const vector& x = points[k];
+                surfaceFoot f = surface_->find(x);
+                f.found = f.found && f.depth > 0 && f.depth <= depth_ && allowed(x, 0) &&
+                          (f.aside == 0 || known.nearest(x, 0.7 * dx_) < 0.7 * dx_);
+                found[k] = f;
+            }
+        },
+        256);
+    for (const surfaceFoot& f : found)
+        if (f.found) feet.add(f.foot);
+    return feet;
+}
+
+void openFace::addSpot(const vector& x, const surfaceFoot& f, std::uint8_t zone,
+                       const pointGrid& full)
+{
+    spot s = {x, f.foot, f.normal, f.depth, 0, 0, zone};
+    full.within(f.foot, near_,
+                [&](label, scalar r) { s.fullNear += perSample_ * weight(r / near_); });
+    full.within(f.foot, region_,
+                [&](label, scalar r) { s.fullRegion += perSample_ * weight(r / region_); });
+    spots_.push_back(s);
+}
+
+void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, const place& allowed)
+{
+    List<surfaceFoot> feet;
+    List<vector> kept;
+    for (const vector& x : sites)
+    {
+        const surfaceFoot f = surface_->find(x);
+        if (!f.found || f.depth < 0 || f.depth > depth_) continue;
+        feet.push_back(f), kept.push_back(x);
+    }
+    if (feet.empty())
+        throw fatalError("Open patch " + name_ + " has no site within " + str(depth_ / dx_) +
+                             " dx beyond its surface, of " + std::to_string(sites.size()) +
+                             " in constant/openSites.hdf. Its normals must point out of the fluid",
+                         where_);
+    const pointGrid full = sampleFeet(kept, cloud.nDims, allowed);
+    perSample_ = std::pow(1.0 / perCell, cloud.nDims);
+
+    pointGrid fluid(2 * dx_), taken(dx_);
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i) fluid.add(cloud.x[i].xyz());
+    for (size_t k = 0; k < feet.size(); ++k)
+    {
+        const label nearest = fluid.nearestIndex(kept[k], 2 * dx_);
+        if (nearest < 0)
+            throw fatalError("Open patch " + name_ +
+                                 ": no fluid particle within 2 dx of the site (" + str(kept[k][0]) +
+                                 " " + str(kept[k][1]) + " " + str(kept[k][2]) +
+                                 "). The strip beyond the surface must be full at the start",
+                             where_);
+        const std::uint8_t zone = cloud.zone[cloud.nSolid() + nearest];
+        addSpot(kept[k], feet[k], zone, full);
+        addOuterSpots(feet[k], zone, cloud.nDims, {full, taken, allowed});
+    }
+}
+
+// Places at the outer end of the strip, half a spacing apart
+void openFace::addOuterSpots(const surfaceFoot& at, std::uint8_t zone, int nDims,
+                             const spotContext& c)
+{
+    const List<vector> along = tangents(at.normal, nDims);
+    for (int a = 0; a < 2; ++a)
+        for (int b = 0; b < (nDims == 3 ? 2 : 1); ++b)
+        {
+            vector aim = at.foot + 0.5 * depth_ * at.normal + 0.5 * a * dx_ * along[0];
+            if (b) aim += 0.5 * dx_ * along[1];
+            surfaceFoot f = surface_->find(aim);
+            if (!f.found || f.depth < 0.25 * depth_) continue;
+            f.depth = 0.999 * depth_;
+            const vector x = f.foot + f.depth * f.normal;
+            if (c.taken.nearest(x, 0.3 * dx_) < 0.3 * dx_ || !c.allowed(x, 0.35 * dx_)) continue;
+            c.taken.add(x);
+            addSpot(x, f, zone, c.full);
+        }
+}
+
+}  // namespace ispf
