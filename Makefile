@@ -42,11 +42,12 @@ FLAGS_Sanitize := -O1 -g -fsanitize=address,undefined -fno-omit-frame-pointer
 ifeq ($(FLAGS_$(OPT)),)
 $(error OPT=$(OPT) is not known; valid: Release Debug Sanitize)
 endif
+# Threads are started in core/parallel only: Eigen's own would spin and depend on their number.
 # no-math-errno and no-trapping-math keep NaN checks working; finite-math-only would not
 HDF5_I   := $(shell pkg-config --cflags hdf5 2>/dev/null || echo -I/usr/include/hdf5/serial)
 HDF5_L   := $(shell pkg-config --libs-only-L hdf5 2>/dev/null || echo -L/usr/lib/x86_64-linux-gnu/hdf5/serial)
 CXXFLAGS := -std=c++20 $(WARN) $(FLAGS_$(OPT)) -fno-math-errno -fno-trapping-math -fopenmp \
-            -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse $(HDF5_I:-I%=-isystem %)
+            -DEIGEN_DONT_PARALLELIZE -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse $(HDF5_I:-I%=-isystem %)
 LDLIBS   := $(HDF5_L) -lhdf5 -lcholmod -lumfpack -lopenblas -fopenmp
 
 # ---- rules ---------------------------------------------------------------------------------------

@@ -12,6 +12,15 @@ namespace
 const char* const defaultPressureSolver =
     "solver PCG; preconditioner multigrid; tolerance 1e-6; relTol 0; maxIter 200;";
 
+scalar maxSpeed(const particleCloud& cloud)
+{
+    return std::sqrt(maxOf(cloud.nAll(), [&](label begin, label end) {
+        scalar m = 0;
+        for (label i = begin; i < end; ++i) m = std::max(m, cloud.Up[i].xyz().squaredNorm());
+        return m;
+    }));
+}
+
 List<vector> points(const particleCloud& cloud)
 {
     List<vector> x(cloud.n());
@@ -51,6 +60,13 @@ void projectionStep::predict(particleCloud& cloud, const stencil& s, const List<
     });
 }
 
+// Residual of the pressure equation when the divergence is round-off: fluid at rest, a flow that is
+// free of divergence on a lattice
+scalar projectionStep::floor(const particleCloud& cloud, scalar dt) const
+{
+    return 1e-9 * rho_ / dt * maxSpeed(cloud) / cloud.dx * std::sqrt(scalar(cloud.n()));
+}
+
 void projectionStep::project(particleCloud& cloud, const stencil& s, const List<scalar>& q,
                              scalar cellSize, scalar dt)
 {
@@ -64,8 +80,8 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
     const List<vector> x = points(cloud);
     p_.resize(n);
     for (label i = 0; i < n; ++i) p_[i] = cloud.pFixed[i] ? cloud.pGiven[i] : cloud.Up[i][3];
-    const solverPerformance result =
-        pressureSolver_->solve({equation_.A, true, &x, cellSize}, equation_.source, p_);
+    const solverPerformance result = pressureSolver_->solve(
+        {equation_.A, true, &x, cellSize, nullptr, floor(cloud, dt)}, equation_.source, p_);
     result.print();
     if (!result.converged && !(result.finalResidual < 1e-2))
         throw fatalError("The pressure equation did not converge: " + result.line() +

@@ -36,14 +36,16 @@ class iterativeSolver : public linearSolver
 {
 public:
     iterativeSolver(const word& fieldName, const word& solver, const dictionary& dict)
-        : method_(solver), dict_(dict), name_(dict.choose("preconditioner", preconditionerWords))
+        : method_(solver),
+          dict_(dict),
+          name_(dict.choose("preconditioner", preconditionerWords)),
+          controls_(solverControls::fromDict(dict))
     {
-        const solverControls controls = solverControls::fromDict(dict);
-        if (solver == "PCG") krylov_ = std::make_unique<PCG>(controls, fieldName);
-        if (solver == "PBiCGStab") krylov_ = std::make_unique<PBiCGStab>(controls, fieldName);
+        if (solver == "PCG") krylov_ = std::make_unique<PCG>(controls_, fieldName);
+        if (solver == "PBiCGStab") krylov_ = std::make_unique<PBiCGStab>(controls_, fieldName);
         if (solver == "FGMRES")
             krylov_ = std::make_unique<FGMRES>(
-                controls, fieldName, label(dict.getInRangeOrDefault("restart", 1, 1000, 60)));
+                controls_, fieldName, label(dict.getInRangeOrDefault("restart", 1, 1000, 60)));
         else passOver(dict, {"restart"}, solver);
 
         if (name_ != "multigrid")
@@ -64,6 +66,9 @@ public:
     {
         if (method_ == "PCG" && !system.symmetric)
             dict_.fail("solver", "the matrix is not symmetric; use PBiCGStab or FGMRES");
+        solverControls controls = controls_;
+        controls.absTol = std::max(controls.absTol, system.floor);
+        krylov_->setControls(controls);
         const preconditioner& M = prepare(system);
         if (floating_.empty()) return krylov_->solve(system.A, M, b, x);
 
@@ -112,6 +117,7 @@ private:
     word method_;
     dictionary dict_;  // for messages
     word name_;        // of the preconditioner
+    solverControls controls_;
     multigridOptions options_;
     std::unique_ptr<cellMultigrid> multigrid_;
     std::unique_ptr<preconditioner> preconditioner_;

@@ -2,6 +2,8 @@
 #include "sphc.H"
 #include "pairSums.H"
 
+#include <algorithm>
+
 namespace ispf
 {
 
@@ -41,10 +43,28 @@ ISPF_HOT void divRange(const stencil& s, const vec4* phi, const tensor* B, pairF
         result[i] = rowSums(s, phi, i, filter).divergence(B ? B[i] : one);
 }
 
-ISPF_HOT void laplacianRange(const stencil& s, const vec4* phi, pairFilter filter, label begin,
-                             label end, vec4* result)
+// c: laplacianScale.  A wall pair takes the row's own.
+ISPF_HOT void laplacianRange(const stencil& s, const vec4* phi, const scalar* c, pairFilter filter,
+                             label begin, label end, vec4* result)
 {
-    for (label i = begin; i < end; ++i) result[i].s = -2 * rowSums(s, phi, i, filter).lap;
+    const label* index = s.list.index.data();
+    const scalar* F = s.list.F.data();
+    for (label i = begin; i < end; ++i)
+    {
+        const simd4 own = phi[i].s;
+        simd4 sum = {};
+        for (std::int64_t k = s.list.start[i]; k < s.list.mid[i]; ++k)
+            sum += F[k] * (c[i] + c[index[k]]) * (own - phi[index[k]].s);
+        const std::int64_t last = filter == pairFilter::all ? s.list.start[i + 1] : s.list.mid[i];
+        for (std::int64_t k = s.list.mid[i]; k < last; ++k)
+        {
+            const label j = index[k];
+            const bool rigid = s.cloud.phase[j] == phaseType::rigid;
+            const simd4 e = F[k] * (c[i] + (rigid ? c[i] : c[j])) * (own - phi[j].s);
+            sum += rigid ? rigidWeight * e : e;
+        }
+        result[i].s = sum;
+    }
 }
 
 struct others
@@ -137,11 +157,24 @@ List<vec4> sphc::grad(const stencil& s, const List<vec4>& phi, gradientScheme sc
     return result;
 }
 
+List<scalar> sphc::laplacianScale(const stencil& s)
+{
+    const particleCloud& cloud = s.cloud;
+    const scalar flat = cloud.nDims == 2 ? 1 : 0;
+    List<scalar> c(cloud.nAll(), 1);
+    for (label i = 0; i < cloud.n(); ++i)
+        c[i] = std::clamp((s.B.all[i].trace() - flat) / cloud.nDims, 0.9, 1.1);
+    for (label g = cloud.n(); g < cloud.nAll(); ++g)
+        if (cloud.ghostSource(g) >= 0) c[g] = c[cloud.ghostSource(g)];
+    return c;
+}
+
 List<vec4> sphc::laplacian(const stencil& s, const List<vec4>& phi, pairFilter filter)
 {
     List<vec4> result(s.cloud.n());
+    const List<scalar> c = laplacianScale(s);
     parallelFor(s.cloud.n(), [&](label begin, label end) {
-        laplacianRange(s, phi.data(), filter, begin, end, result.data());
+        laplacianRange(s, phi.data(), c.data(), filter, begin, end, result.data());
     });
     return result;
 }

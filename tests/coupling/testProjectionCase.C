@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The scheme as a case runs it: dictionaries, boundary, limits
+#include "caseOnDisk.H"
+
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace ispf;
+
+namespace
+{
+
+const char* const slipBox = R"(
+    left   { type symmetryPlane; point (0 0 0); normal (-1 0 0); }
+    right  { type symmetryPlane; point (0.2 0 0); normal (1 0 0); }
+    bottom { type symmetryPlane; point (0 0 0); normal (0 -1 0); }
+    top    { type symmetryPlane; point (0 0.4 0); normal (0 1 0); })";
+
+void disorder(particleTable& table, scalar most)
+{
+    std::uint64_t state = 1;
+    const auto next = [&] {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        return most * (scalar(state >> 11) / scalar(1ull << 52) - 1);
+    };
+    for (vector& x : table.x) x += vector(next(), next(), 0);
+}
+
+}  // namespace
+
+TEST_CASE("fluid at rest under gravity stays at rest, with the pressure of its depth")
+{
+    caseOnDisk files("hydrostatic");
+    files.fill(10, 20, 0.02);
+    disorder(files.particles(), 0.004);
+    files.boundary = slipBox, files.g = "(1 -9.81 0)";
+    files.write();
+    capturedLog log;
+    Time time(files.path());
+    fsiCase c(time);
+    const auto scheme = couplingScheme::New(c);
+    runSteps(c, *scheme, 0.01, 20);
+
+    const particleCloud& cloud = c.cloud;
+    const auto hydrostatic = [&](label i) { return 1000 * (cloud.x[i][0] - 9.81 * cloud.x[i][1]); };
+    const scalar level = cloud.Up[0][3] - hydrostatic(0);
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        CHECK(cloud.Up[i].xyz().norm() < 1e-12);
+        CHECK(std::abs(cloud.Up[i][3] - level - hydrostatic(i)) < 1e-8 * 1000 * 9.81);
+    }
+    CHECK(log.contains("time step continuity errors : sum local = "));
+    CHECK(log.contains("Courant Number mean: 0 max: 0"));
+}
+
+TEST_CASE("a body force along a cyclic direction accelerates, all else of it is pressure")
+{
+    caseOnDisk files("freeFall");
+    files.fill(16, 20, 0.02);
+    files.boundary = R"(
+        sides  { type cyclic; point (0 0 0); separation (0.32 0 0); }
+        bottom { type symmetryPlane; point (0 0 0); normal (0 -1 0); }
+        top    { type symmetryPlane; point (0 0.4 0); normal (0 1 0); })";
+    files.g = "(2 -9.81 0)";
+    files.write();
+    capturedLog log;
+    Time time(files.path());
+    fsiCase c(time);
+    const auto scheme = couplingScheme::New(c);
+    runSteps(c, *scheme, 0.01, 10);
+    for (label i = 0; i < c.cloud.n(); ++i)
+        CHECK((c.cloud.Up[i].xyz() - vector(0.2, 0, 0)).norm() < 1e-7);
+}
+
+TEST_CASE("the limit that rules is named")
+{
+    caseOnDisk files("limits");
+    files.fill(10, 20, 0.02);
+    files.boundary = slipBox;
+    const scalar h = 1.3 * 0.02;
+    const auto limitOf = [&](const word& projection, const word& properties, const vector& u) {
+        files.solution = "coupling projection; projection { " + projection + " }";
+        files.properties = properties;
+        for (vector& U : files.particles().vectors["U"]) U = u;
+        files.write();
+        capturedLog log;
+        Time time(files.path());
+        fsiCase c(time);
+        return couplingScheme::New(c)->limit();
+    };
+    const vector none = vector::Zero(), some(0, 2, 0);
+    const auto cfl = limitOf("", "rho 1; mu 0.01;", some);
+    CHECK(cfl.rule == "CFL");
+    CHECK(cfl.dt == doctest::Approx(0.4 * h / 2));
+
+    const auto viscous = limitOf("viscosity explicit;", "rho 1; mu 0.5;", some);
+    CHECK(viscous.rule == "explicit viscosity");
+    CHECK(viscous.dt == doctest::Approx(0.125 * h * h / 0.5));
+    CHECK(limitOf("viscosity implicit;", "rho 1; mu 0.5;", none).rule == "none");
+    CHECK(limitOf("limits { CFL 0.1; }", "rho 1; mu 0.01;", some).dt ==
+          doctest::Approx(0.1 * h / 2));
+
+    const auto force = limitOf("", "rho 1; mu 0.01; bodyForce { fluid (0 0 0); }", some);
+    CHECK(force.rule == "CFL");
+}
