@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parallel.H"
-#include "solidBodies.H"
+#include "solidMotions.H"
 
 #include <doctest/doctest.h>
 
