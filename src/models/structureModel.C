@@ -34,6 +34,7 @@ std::unique_ptr<structureModel> structureModel::New(const dictionary& dict,
                              "Leave the entry out, or change the fluid's");
     std::unique_ptr<structureModel> made;
     if (model == "springNetwork") made = newSpringNetwork(dict, ref);
+    dict.checkAllRead();
     return made;
 }
 

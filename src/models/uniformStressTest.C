@@ -3,6 +3,8 @@
 #include "PCG.H"
 #include "parallel.H"
 
+#include <algorithm>
+
 namespace ispf
 {
 
@@ -123,14 +125,20 @@ stressResponse uniformStressTest(const structureModel& model,
     return response;
 }
 
-scalar meanStrain(const stressResponse& response, const vector& a, const List<char>& inside)
+scalar modulusRatio(const structureModel& model, const vector& axis, const List<char>& inside)
 {
-    scalar sum = 0;
-    label count = 0;
+    const scalar strain = 0.01,
+                 named = (model.reference().nDims == 3 ? 3 : 4) * model.shearModulus();
+    const stressResponse response = uniformStressTest(
+        model, [&](label) -> tensor { return strain * named * axis * axis.transpose(); });
+    List<scalar> measured;
     for (size_t i = 0; i < inside.size(); ++i)
-        if (inside[i]) sum += a.dot(response.strain[i] * a), ++count;
-    if (count == 0) throw fatalError("No particle of the structure lies in the measured part");
-    return sum / count;
+        if (inside[i]) measured.push_back(axis.dot(response.strain[i] * axis));
+    if (measured.empty())
+        throw fatalError("No particle of the structure lies in the measured part");
+    const auto middle = measured.begin() + std::ptrdiff_t(measured.size() / 2);
+    std::nth_element(measured.begin(), middle, measured.end());
+    return strain / *middle;
 }
 
 }  // namespace ispf

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parallel.H"
-#include "solidBodies.H"
+#include "solidMotions.H"
 
 #include <doctest/doctest.h>
 
@@ -64,6 +64,7 @@ TEST_CASE("Wrong entries are refused with what is valid")
     CHECK(contains(error(net + "links lattice8; E 1;"), "lattice18"));
     CHECK(contains(error(net + "links lattice18; E 1; rho 1100;"), "1000"));
     CHECK(error(net + "links lattice18; E 1; rho 1000;") == "");
+    CHECK(contains(error(net + "links lattice18; E 1; nu 0.5;"), "nu"));
     // six neighbours resist no shear
     CHECK(contains(error(net + "links radius; radius 1; E 1;"), "shear"));
     CHECK(contains(error(net + "links radius; radius 1; k_e 1;"), "shear"));
