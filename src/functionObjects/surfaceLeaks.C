@@ -6,8 +6,8 @@
 //
 // The right side is the one on which most of the chosen particles near the surface are at the start.
 // Where the surface's rim is nearest there are no sides, and nothing is counted.
-// Columns: wrongSide, their number in the model (not the whole body); deepest [m], how far the worst
-// of them is beyond the surface.
+// Columns, of the model, not the whole body: wrongSide, their number; through, those by more than half
+// a spacing, which cannot be the particle size's doing; deepest [m], how far the worst is beyond.
 #include "functionObject.H"
 
 #include "dataFile.H"
@@ -29,7 +29,8 @@ public:
           surface_(dict.get<word>("surface"), c),
           chosen_(c.cloud, dict, "fluid"),
           file_(startFolder() + "/surfaceLeaks.dat",
-                {"Particles on the wrong side of " + surface_.name()}, {"wrongSide", "deepest"})
+                {"Particles on the wrong side of " + surface_.name()},
+                {"wrongSide", "through", "deepest"})
     {
         label balance = 0;
         forDistances(3 * c.cloud.dx, [&](scalar d) { balance += d > 0 ? 1 : -1; });
@@ -41,14 +42,15 @@ public:
 
     void write() override
     {
-        label wrong = 0;
+        label wrong = 0, through = 0;
         scalar deepest = 0;
         forDistances(std::numeric_limits<scalar>::max(), [&](scalar d) {
             const scalar depth = -rightSide_ * d;
             wrong += depth > 0;
+            through += depth > 0.5 * case_.cloud.dx;
             deepest = std::max(deepest, depth);
         });
-        (file_.begin(case_.time.value()) << wrong) << deepest;
+        file_.begin(case_.time.value()) << wrong << through << deepest;
         file_.endRow();
     }
 

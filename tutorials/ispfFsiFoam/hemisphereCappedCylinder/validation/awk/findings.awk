@@ -71,7 +71,7 @@ END {
         verdict(abs(q["pressurePeak"]/q["pressureReference"] - 1) <= 0.2, \
             sprintf("%.4f against %.3f", q["pressurePeak"], q["pressureReference"]))
     if (finding("throughWall", "no particle goes through a wall"))
-        verdict(q["throughWall"] == 0, sprintf("at most %d at once on the wrong side of the surface, the deepest by %.2f dx", \
+        verdict(q["throughWall"] == 0, sprintf("at most %d at once beyond its surface by more than dx/2; the deepest by %.2f dx", \
             q["throughWall"], q["throughWallDeepest"]))
     if (finding("cycleDifference", "second cycle equal to the first: within 2 % of the peak"))
         verdict(q["cycleDifference"] <= 2, sprintf("largest difference of dD/D %.2f %% of the peak", q["cycleDifference"]))
