@@ -106,6 +106,16 @@ TEST_CASE("multigrid: nothing held, two floating parts")
     CHECK(iterations(lattice, "V") <= 14);
 }
 
+TEST_CASE("multigrid: held so weakly that single precision does not see it")
+{
+    jitteredLattice::choices c;
+    c.held = [](const vector& x) { return x[2] > edge - 1 ? 1e-7 : 0; };
+    const jitteredLattice lattice(edge, edge, edge, c);
+    CHECK(cellMultigrid(lattice.A, lattice.x, options(lattice, "V")).nullSpace().empty());
+    CHECK(iterations(lattice, "K") <= 12);
+    CHECK(iterations(lattice, "V") <= 13);
+}
+
 TEST_CASE("multigrid: coefficient jumps by 1e4")
 {
     jitteredLattice::choices c;
