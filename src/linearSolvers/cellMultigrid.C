@@ -160,7 +160,13 @@ void cellMultigrid::buildFinest(const csrMatrix& A, const List<vector>& x,
     f.group = group.empty() ? List<std::uint8_t>(n, 0) : group;
     vector corner = vector::Zero();
     if (n > 0) corner = x[0];
-    for (const vector& p : x) corner = corner.cwiseMin(p);
+    for (label i = 0; i < n; ++i)
+    {
+        corner = corner.cwiseMin(x[i]);
+        if (!x[i].allFinite())
+            throw fatalError("cellMultigrid: the point of row " + std::to_string(i) +
+                             " is not finite");
+    }
     parallelFor(n, [&](label i, label end) {
         for (; i < end; ++i)
         {

@@ -6,6 +6,7 @@
 #include "parallel.H"
 #include <doctest/doctest.h>
 #include <algorithm>
+#include <limits>
 
 using namespace ispf;
 
@@ -307,6 +308,9 @@ TEST_CASE("multigrid: wrong input is refused")
     multigridOptions o = options(lattice, "V");
     CHECK_THROWS_AS(cellMultigrid(lattice.A, List<vector>(3), o), fatalError);
     CHECK_THROWS_AS(cellMultigrid(lattice.A, lattice.x, o, List<std::uint8_t>(3)), fatalError);
+    List<vector> lost(lattice.x);
+    lost[7][1] = std::numeric_limits<scalar>::quiet_NaN();
+    CHECK_THROWS_AS(cellMultigrid(lattice.A, lost, o), fatalError);
     o.cellSize = 0;
     CHECK_THROWS_AS(cellMultigrid(lattice.A, lattice.x, o), fatalError);
 }
