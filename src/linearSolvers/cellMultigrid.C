@@ -154,13 +154,19 @@ void cellMultigrid::buildFinest(const csrMatrix& A, const List<vector>& x,
     matrixScale_ = sum > 0 ? sum / n : 1;
     const scalar scale = 1 / matrixScale_;
     const List<scalar> off =
-        f.A.assign(n, A.rowStart.data(), A.column.data(), A.value.data(), float(scale));
+        f.A.assign(n, A.rowStart.data(), A.column.data(), A.value.data(), scale);
     f.excess.resize(n), f.weight.resize(n), f.point.resize(n);
     f.nRows.assign(n, 1);
     f.group = group.empty() ? List<std::uint8_t>(n, 0) : group;
     vector corner = vector::Zero();
     if (n > 0) corner = x[0];
-    for (const vector& p : x) corner = corner.cwiseMin(p);
+    for (label i = 0; i < n; ++i)
+    {
+        corner = corner.cwiseMin(x[i]);
+        if (!x[i].allFinite())
+            throw fatalError("cellMultigrid: the point of row " + std::to_string(i) +
+                             " is not finite");
+    }
     parallelFor(n, [&](label i, label end) {
         for (; i < end; ++i)
         {

@@ -96,7 +96,8 @@ void placeAggregates(const multigridLevel& fine, const cellAggregates& aggregate
         coarse.group[a] = fine.group[first];
         // by the product that aggregateByCell uses: a lattice has rows on the very edge of a cell
         for (int d = 0; d < 3; ++d)
-            coarse.point[a][d] = (std::floor(fine.point[first][d] * (1 / cellSize)) + 0.5f) * cellSize;
+            coarse.point[a][d] =
+                (std::floor(fine.point[first][d] * (1 / cellSize)) + 0.5f) * cellSize;
         for (label m = aggregates.start[a]; m < aggregates.start[a + 1]; ++m)
         {
             coarse.excess[a] += fine.excess[aggregates.member[m]];

@@ -103,7 +103,7 @@ ISPF_HOT void hotSmooth(const slices& A, label s, label e, const float* relax, c
 
 template <class Real>
 List<scalar> slicedMatrix::assign(label n, const label* rowStart, const std::int32_t* column,
-                                  const Real* value, float factor)
+                                  const Real* value, scalar factor)
 {
     n_ = n;
     diagonal_.assign(padded(n), 0);
@@ -122,7 +122,7 @@ List<scalar> slicedMatrix::assign(label n, const label* rowStart, const std::int
             for (label k = rowStart[i]; k < rowStart[i + 1]; ++k, at += width)
             {
                 column_[at] = column[k];
-                value_[at] = factor * float(value[k]);
+                value_[at] = float(factor * value[k]);
                 offSum[i] += value[k];
             }
         for (; at < end; at += width) column_[at] = std::min(i, n - 1), value_[at] = 0;
@@ -138,9 +138,9 @@ List<scalar> slicedMatrix::assign(label n, const label* rowStart, const std::int
 }
 
 template List<scalar> slicedMatrix::assign(label, const label*, const std::int32_t*, const float*,
-                                           float);
+                                           scalar);
 template List<scalar> slicedMatrix::assign(label, const label*, const std::int32_t*, const scalar*,
-                                           float);
+                                           scalar);
 
 bool slicedMatrix::hasEntries(label i) const
 {

@@ -6,6 +6,7 @@
 #include "parallel.H"
 #include <doctest/doctest.h>
 #include <algorithm>
+#include <limits>
 
 using namespace ispf;
 
@@ -104,6 +105,16 @@ TEST_CASE("multigrid: nothing held, two floating parts")
     CHECK(moved < 1e-12 * norm(z));
     CHECK(iterations(lattice, "K") <= 13);
     CHECK(iterations(lattice, "V") <= 14);
+}
+
+TEST_CASE("multigrid: held so weakly that single precision does not see it")
+{
+    jitteredLattice::choices c;
+    c.held = [](const vector& x) { return x[2] > edge - 1 ? 1e-7 : 0; };
+    const jitteredLattice lattice(edge, edge, edge, c);
+    CHECK(cellMultigrid(lattice.A, lattice.x, options(lattice, "V")).nullSpace().empty());
+    CHECK(iterations(lattice, "K") <= 12);
+    CHECK(iterations(lattice, "V") <= 13);
 }
 
 TEST_CASE("multigrid: coefficient jumps by 1e4")
@@ -297,6 +308,9 @@ TEST_CASE("multigrid: wrong input is refused")
     multigridOptions o = options(lattice, "V");
     CHECK_THROWS_AS(cellMultigrid(lattice.A, List<vector>(3), o), fatalError);
     CHECK_THROWS_AS(cellMultigrid(lattice.A, lattice.x, o, List<std::uint8_t>(3)), fatalError);
+    List<vector> lost(lattice.x);
+    lost[7][1] = std::numeric_limits<scalar>::quiet_NaN();
+    CHECK_THROWS_AS(cellMultigrid(lattice.A, lost, o), fatalError);
     o.cellSize = 0;
     CHECK_THROWS_AS(cellMultigrid(lattice.A, lattice.x, o), fatalError);
 }
