@@ -29,6 +29,7 @@ void packingGuides::hold(packedParticle& p, const vector& by, bool exactly) cons
             p.where == packedParticle::place::zone ? searchZone(p) : searchPatch(p);
         else p.x += (p.depth - off.dot(p.normal)) * p.normal;
     }
+    if (p.guard >= 0) keepOffWall(p);
     // An image of its own nearer than 0.8 dx would be as bad as a neighbour
     const scalar clear = 0.4 * dx;
     for (const halfSpace& plane : geometry_.symmetryPlanes())
@@ -36,6 +37,26 @@ void packingGuides::hold(packedParticle& p, const vector& by, bool exactly) cons
         const scalar d = plane.distance(p.x);
         if (d > -clear) p.x -= (d + clear) * plane.normal;
     }
+}
+
+void packingGuides::keepOffWall(packedParticle& p) const
+{
+    const scalar dx = geometry_.dx();
+    const exteriorPoint q = outside_.footOn(p.guard, p.x, 6 * dx);
+    if (q.type != exteriorPoint::kind::nothing && q.depth > -0.45 * dx)
+        p.x -= (q.depth + 0.45 * dx) * q.normal;
+}
+
+label packingGuides::wallBeside(const vector& x) const
+{
+    for (size_t w = 0; w < geometry_.patches().size(); ++w)
+    {
+        if (geometry_.patches()[w].type != patchInfo::kind::wall) continue;
+        const exteriorPoint q = outside_.footOn(label(w), x, 5 * geometry_.dx());
+        if (q.type != exteriorPoint::kind::nothing && q.depth > -1.5 * geometry_.dx())
+            return label(w);
+    }
+    return -1;
 }
 
 void packingGuides::holdFree(packedParticle& p, scalar moved, bool exactly) const

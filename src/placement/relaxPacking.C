@@ -3,7 +3,7 @@
 // one keeps next neighbours apart (alone, the wide one would tolerate pairs).
 #include "packing.H"
 
-#include "cellList.H"
+#include "packingPairs.H"
 #include "smoothingKernel.H"
 #include <cmath>
 
@@ -24,18 +24,6 @@ constexpr scalar longestDrift =
 constexpr label correctionInterval = 12;  // iterations between additions and removals
 constexpr scalar tolerableSum = 0.035;    // deviation of a kernel sum that calls for a correction
 
-// All positions with their images in the symmetry planes
-List<vector> withImagePoints(const List<packedParticle>& particles, const zoneGeometry& geometry,
-                             scalar support)
-{
-    List<vector> x;
-    for (const packedParticle& p : particles) x.push_back(p.x);
-    for (const halfSpace& plane : geometry.symmetryPlanes())
-        for (size_t i = 0, n = x.size(); i < n; ++i)
-            if (plane.distance(x[i]) > -support) x.push_back(plane.mirror(x[i]));
-    return x;
-}
-
 class relaxation
 {
 public:
@@ -50,7 +38,8 @@ public:
           wide_(smoothingKernel::New("WendlandC2", geometry_.nDims(), settings.support / 2)),
           narrow_(smoothingKernel::New("WendlandC2", geometry_.nDims(), narrowSupport * dx_ / 2)),
           cell_(std::pow(dx_, geometry_.nDims())),
-          full_(wide_->latticeSum(dx_))
+          full_(wide_->latticeSum(dx_)),
+          pairs_(geometry_, settings.support)
     {
     }
 
@@ -69,34 +58,34 @@ private:
     // One move of all particles along the repulsion
     void step(scalar rate)
     {
-        const List<vector> x = withImagePoints(particles_, geometry_, settings_.support);
-        const cellList cells(x, settings_.support);
+        pairs_.refresh(particles_);
         parallelFor(label(particles_.size()), [&](label begin, label end) {
-            neighbours near;
-            for (label i = begin; i < end; ++i) move(i, rate * push(x, cells, i, near));
+            repulsion work;
+            for (label i = begin; i < end; ++i) move(i, rate * push(i, work));
         });
     }
 
-    struct neighbours
+    struct repulsion
     {
         List<vector> apart;
         List<scalar> distSqr, wide, narrow;
     };
 
-    vector push(const List<vector>& x, const cellList& cells, label i, neighbours& near) const
+    vector push(label i, repulsion& work) const
     {
-        near.apart.clear(), near.distSqr.clear();
-        cells.near(x[i], settings_.support, [&](label j, scalar d2) {
-            if (j == i) return;
-            near.apart.push_back(x[i] - x[j]), near.distSqr.push_back(d2);
-        });
-        const label n = label(near.apart.size());
-        near.wide.resize(n), near.narrow.resize(n);
-        wide_->F(near.distSqr.data(), near.wide.data(), n);
-        narrow_->F(near.distSqr.data(), near.narrow.data(), n);
+        const auto [first, last] = pairs_.of(i);
+        const size_t n = size_t(last - first);
+        work.apart.resize(n), work.distSqr.resize(n), work.wide.resize(n), work.narrow.resize(n);
+        for (size_t k = 0; k < n; ++k)
+        {
+            work.apart[k] = pairs_.x(i) - pairs_.x(first[k]);
+            work.distSqr[k] = work.apart[k].squaredNorm();
+        }
+        wide_->F(work.distSqr.data(), work.wide.data(), label(n));
+        narrow_->F(work.distSqr.data(), work.narrow.data(), label(n));
         vector sum = vector::Zero();
-        for (label k = 0; k < n; ++k)
-            sum -= (wideRate * near.wide[k] + narrowRate * near.narrow[k]) * near.apart[k];
+        for (size_t k = 0; k < n; ++k)
+            sum -= (wideRate * work.wide[k] + narrowRate * work.narrow[k]) * work.apart[k];
         return cell_ * dx_ * dx_ * sum;
     }
 
@@ -147,6 +136,7 @@ private:
     scalar dx_;
     std::unique_ptr<smoothingKernel> wide_, narrow_;
     scalar cell_, full_;
+    packingPairs pairs_;
 };
 
 // The roomiest place around a particle, in the same zone and bound alike
@@ -242,6 +232,7 @@ placedParticles finishPacking(const List<packedParticle>& particles, const zoneG
     placedParticles placed;
     for (const packedParticle& p : particles)
     {
+        if (p.where == place::filler) continue;
         if (p.where == place::rigid)
         {
             placed.rigid.push_back(p.x), placed.rigidPatch.push_back(p.owner);

@@ -72,10 +72,11 @@ private:
         s.width = width;
         s.band = label(q.distance / width);
         if (!thin && s.band >= bandsOfThick) return false;
-        const scalar first = 0.5 * std::min(dx_, width);
+        // Layers of solids keep their place, so that a wall has as many as fit; a fluid finds its own
+        const bool solid = geometry_.zones()[zone].phase == phaseType::solid;
         s.p.where = place::zone, s.p.owner = zone;
-        s.p.depth = s.band == 0 ? first : -1;
-        s.p.x = q.point + (s.band == 0 ? first : (s.band + 0.5) * width) * inward;
+        s.p.depth = s.band == 0 && solid ? 0.5 * width : -1;
+        s.p.x = q.point + (s.band + 0.5) * width * inward;
         return true;
     }
 
@@ -89,12 +90,14 @@ private:
         {
             const scalar reach = 2 * guides_.outside().wallThickness();
             const scalar t = guides_.rigidThickness(q.foot, q.normal, reach);
-            if (std::isfinite(t)) width = t / std::max<scalar>(1, std::round(t / dx_));
+            // Rather one layer more: fluid on both sides misses what is missing
+            if (std::isfinite(t)) width = t / std::max<scalar>(1, std::ceil(t / dx_ - 0.3));
         }
         s.width = width;
         s.band = label(q.depth / width);
-        if (!rigid && s.band >= stripLayers_) return false;
-        s.p.where = rigid ? place::rigid : place::strip;
+        s.p.where = rigid                                  ? place::rigid
+                    : q.type == exteriorPoint::kind::strip ? place::strip
+                                                           : place::filler;
         s.p.owner = q.patch;
         s.p.depth = (s.band + 0.5) * width;
         s.p.x = q.foot + s.p.depth * q.normal;
@@ -297,7 +300,12 @@ List<packedParticle> seedPacking(const packingGuides& guides, label stripLayers,
         for (label k = 0; k < std::min(wanted, label(list.size())); ++k)
             seeds.push_back(list[k].second);
     }
-    for (packedParticle& p : seeds) p.seed = p.x;
+    for (packedParticle& p : seeds)
+    {
+        if (p.where == place::strip) p.guard = guides.wallBeside(p.x);
+        guides.hold(p, vector::Zero(), true);
+        p.seed = p.x;
+    }
     return seeds;
 }
 
