@@ -15,6 +15,13 @@ exterior::exterior(const zoneGeometry& geometry, scalar wallThickness, scalar st
             search_.emplace_back(
                 withImages(geometry.patchSurface(label(p)), geometry.symmetryPlanes(), reach));
     }
+    search_.emplace_back(withImages(geometry.freeSurface(), geometry.symmetryPlanes(), reach));
+}
+
+bool exterior::isWall(label patch) const
+{
+    return patch == label(geometry_.patches().size()) ||
+           geometry_.patches()[patch].type == patchInfo::kind::wall;
 }
 
 exteriorPoint exterior::footOn(label patch, const vector& x, scalar radius) const
@@ -38,32 +45,36 @@ bool exterior::findWall(const vector& x, exteriorPoint& wall) const
     const scalar tie = 1e-6 * geometry_.dx();
     for (size_t p = 0; p < search_.size(); ++p)
     {
-        const patchInfo& patch = geometry_.patches()[p];
-        if (patch.type != patchInfo::kind::wall) continue;
+        if (!isWall(label(p))) continue;
+        const bool isFree = p == geometry_.patches().size();
+        const bool still = !isFree && !geometry_.patches()[p].moving;
         // Beside a rim a wall reaches on under the whole strip
         const exteriorPoint q = footOn(label(p), x, wallThickness_ + 2 * stripWidth_);
         if (q.type == exteriorPoint::kind::nothing || q.depth <= 0 || q.depth > wallThickness_)
             continue;
         const bool better = wall.type == exteriorPoint::kind::nothing ||
                             q.distance < wall.distance - tie ||
-                            (q.distance < wall.distance + tie && !patch.moving);
-        if (better) wall = q;
+                            (q.distance < wall.distance + tie && still);
+        if (!better) continue;
+        wall = q;
+        if (isFree) wall.type = exteriorPoint::kind::filler;
     }
     return wall.type != exteriorPoint::kind::nothing;
 }
 
 bool exterior::findOpen(const vector& x, exteriorPoint& open) const
 {
-    for (size_t p = 0; p < search_.size(); ++p)
+    const scalar strip = stripWidth_ * (1 + 1e-6);
+    for (size_t p = 0; p < geometry_.patches().size(); ++p)
     {
         if (geometry_.patches()[p].type != patchInfo::kind::open) continue;
-        const exteriorPoint q = footOn(label(p), x, stripWidth_ * (1 + 1e-6));
+        const exteriorPoint q = footOn(label(p), x, strip + wallThickness_);
         const bool found = open.type != exteriorPoint::kind::nothing;
-        if (q.type == exteriorPoint::kind::nothing || q.depth <= 0 ||
-            (found && q.distance >= open.distance))
-            continue;
+        if (q.type == exteriorPoint::kind::nothing || q.depth <= 0) continue;
+        if (q.distance > q.depth * (1 + 1e-4)) continue;  // beside the rim: not beyond the face
+        if (found && q.distance >= open.distance) continue;
         open = q;
-        open.type = exteriorPoint::kind::strip;
+        open.type = q.depth <= strip ? exteriorPoint::kind::strip : exteriorPoint::kind::filler;
         const word& zone = search_[p].surface().patchNames[search_[p].surface().patch[q.triangle]];
         for (open.zone = 0; geometry_.zones()[open.zone].name != zone;) ++open.zone;
     }

@@ -31,7 +31,10 @@ void sweepPlane(const zoneGeometry& geometry, const exterior& outside, const vec
             if (geometry.beyondSymmetry(p.x) >= 0) continue;
             p.zone = geometry.zoneAt(p.x);
             if (p.zone < 0) p.outside = outside.at(p.x);
-            if (p.zone >= 0 || p.outside.type != exteriorPoint::kind::nothing) found.push_back(p);
+            const auto type = p.outside.type;
+            if (p.zone >= 0 || type == exteriorPoint::kind::rigid ||
+                type == exteriorPoint::kind::strip)
+                found.push_back(p);
         }
 }
 

@@ -163,6 +163,9 @@ void zoneGeometry::gatherPatches()
                              " has no face: no outer face of a fluid zone was given that name");
         patchSurface_.push_back(std::move(all));
     }
+    for (const triSurface& s : boundary_)
+        freeSurface_.append(s.subset([&](label t) { return s.patchNames[s.patch[t]].empty(); }));
+    freeSurface_.weld(1e-6 * dx_);
 }
 
 void zoneGeometry::setVolumes()

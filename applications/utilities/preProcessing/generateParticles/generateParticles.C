@@ -3,6 +3,8 @@
 // wall particles, sites of open faces and surfaces out.
 #include "argList.H"
 #include "caseWriter.H"
+#include "packing.H"
+#include "packing.H"
 #include "packingReport.H"
 #include "particleDict.H"
 
@@ -24,7 +26,9 @@ int main(int argc, char** argv)
         writeSurfaces(folder, geometry);
 
         info() << "Placing particles" << std::endl;
-        const placedParticles placed = placeOnLattice(geometry, outside, dict.origin, dict.support);
+        const placedParticles placed =
+            dict.bodyFitted ? placeBodyFitted(geometry, outside, dict.support, dict.stripLayers)
+                            : placeOnLattice(geometry, outside, dict.origin, dict.support);
         reportPacking(geometry, placed, dict.support);
         writeParticleFiles(folder, geometry, placed, dict.sources);
         info() << "End" << std::endl;

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "packing.H"
+
+#include <cmath>
+
+namespace ispf
+{
+
+packingGuides::packingGuides(const zoneGeometry& geometry, const exterior& outside)
+    : geometry_(geometry), outside_(outside)
+{
+    const scalar reach = 8 * geometry.dx();
+    for (size_t z = 0; z < geometry.zones().size(); ++z)
+        zoneSurface_.emplace_back(
+            withImages(geometry.boundary(label(z)), geometry.symmetryPlanes(), reach));
+}
+
+void packingGuides::hold(packedParticle& p, const vector& by, bool exactly) const
+{
+    const scalar dx = geometry_.dx();
+    p.x += by;
+    if (!p.bound()) holdFree(p, by.norm(), exactly);
+    else
+    {
+        // The tangent plane serves for a tenth of a spacing
+        const bool known = p.normal.squaredNorm() > 0.5;
+        const vector off = p.x - p.foot;
+        if (exactly || !known || (off - off.dot(p.normal) * p.normal).norm() > 0.1 * dx)
+            p.where == packedParticle::place::zone ? searchZone(p) : searchPatch(p);
+        else p.x += (p.depth - off.dot(p.normal)) * p.normal;
+    }
+    if (p.guard >= 0) keepOffWall(p);
+    // An image of its own nearer than 0.8 dx would be as bad as a neighbour
+    const scalar clear = 0.4 * dx;
+    for (const halfSpace& plane : geometry_.symmetryPlanes())
+    {
+        const scalar d = plane.distance(p.x);
+        if (d > -clear) p.x -= (d + clear) * plane.normal;
+    }
+}
+
+void packingGuides::keepOffWall(packedParticle& p) const
+{
+    const scalar dx = geometry_.dx();
+    const exteriorPoint q = outside_.footOn(p.guard, p.x, 6 * dx);
+    if (q.type != exteriorPoint::kind::nothing && q.depth > -0.45 * dx)
+        p.x -= (q.depth + 0.45 * dx) * q.normal;
+}
+
+label packingGuides::wallBeside(const vector& x) const
+{
+    for (size_t w = 0; w < geometry_.patches().size(); ++w)
+    {
+        if (geometry_.patches()[w].type != patchInfo::kind::wall) continue;
+        const exteriorPoint q = outside_.footOn(label(w), x, 5 * geometry_.dx());
+        if (q.type != exteriorPoint::kind::nothing && q.depth > -1.5 * geometry_.dx())
+            return label(w);
+    }
+    return -1;
+}
+
+void packingGuides::holdFree(packedParticle& p, scalar moved, bool exactly) const
+{
+    const scalar dx = geometry_.dx(), want = 0.5 * dx, look = 2 * dx;
+    p.clearance -= moved;
+    if (p.clearance >= want && !exactly) return;
+    for (int pass = 0; pass < 2; ++pass)  // twice: in a corner two faces push
+    {
+        const surfacePoint q = zoneSurface_[p.owner].nearest(p.x, look);
+        p.clearance = q.found ? q.distance : look;
+        const bool inside = !q.found || (p.x - q.point).dot(q.normal) < 0;
+        if (inside && p.clearance >= want) return;
+        const vector inward =
+            inside && q.distance > 1e-3 * dx ? vector((p.x - q.point) / q.distance) : -q.normal;
+        p.x = q.point + want * inward;
+        p.clearance = want;
+    }
+}
+
+void packingGuides::searchZone(packedParticle& p) const
+{
+    const scalar dx = geometry_.dx();
+    for (int pass = 0; pass < 2; ++pass)
+    {
+        const surfacePoint q = zoneSurface_[p.owner].nearest(p.x, 3 * dx);
+        if (!q.found) return;
+        const bool inside = (p.x - q.point).dot(q.normal) < 0;
+        p.normal =
+            inside && q.distance > 1e-3 * dx ? vector((p.x - q.point) / q.distance) : -q.normal;
+        p.foot = q.point;
+        p.x = q.point + p.depth * p.normal;
+    }
+}
+
+void packingGuides::searchPatch(packedParticle& p) const
+{
+    const exteriorPoint q =
+        outside_.footOn(p.owner, p.x, 2 * (outside_.wallThickness() + outside_.stripWidth()));
+    if (q.type == exteriorPoint::kind::nothing) return;
+    p.foot = q.foot, p.normal = q.normal;
+    p.x = q.foot + p.depth * q.normal;
+}
+
+scalar packingGuides::zoneThickness(label zone, const vector& foot, const vector& inward,
+                                    scalar reach) const
+{
+    const vector from = foot + 1e-3 * geometry_.dx() * inward;
+    const surfaceHit hit = zoneSurface_[zone].firstHit(from, foot + reach * inward);
+    return hit.found ? (hit.point - foot).norm() : std::numeric_limits<scalar>::infinity();
+}
+
+scalar packingGuides::rigidThickness(const vector& foot, const vector& outward, scalar reach) const
+{
+    const vector from = foot + 1e-3 * geometry_.dx() * outward;
+    scalar least = std::numeric_limits<scalar>::infinity();
+    for (size_t p = 0; p < geometry_.patches().size(); ++p)
+    {
+        if (geometry_.patches()[p].type != patchInfo::kind::wall) continue;
+        const surfaceHit hit = outside_.search(label(p)).firstHit(from, foot + reach * outward);
+        if (hit.found) least = std::min(least, (hit.point - foot).norm());
+    }
+    return least;
+}
+
+}  // namespace ispf

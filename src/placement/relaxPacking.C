@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Repulsion by two Wendland kernels: the wide one is that of the flow and makes its sums even, the narrow
+// one keeps next neighbours apart (alone, the wide one would tolerate pairs).
+#include "packing.H"
+
+#include "packingPairs.H"
+#include "smoothingKernel.H"
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+using place = packedParticle::place;
+
+constexpr scalar narrowSupport = 1.7;  // in dx
+constexpr scalar wideRate = 0.4;       // of the displacement that would cure a long wave at once
+constexpr scalar narrowRate = 0.12;
+constexpr scalar longestMove = 0.15;  // in dx, per iteration
+constexpr scalar longestDrift =
+    0.35;  // in dx, of particles outside the zones: their edges are free
+constexpr label correctionInterval = 12;  // iterations between additions and removals
+constexpr scalar tolerableSum = 0.035;    // deviation of a kernel sum that calls for a correction
+
+class relaxation
+{
+public:
+    relaxation(List<packedParticle>& particles, const packingGuides& guides,
+               const List<label>& target, const relaxationSettings& settings)
+        : particles_(particles),
+          guides_(guides),
+          geometry_(guides.geometry()),
+          target_(target),
+          settings_(settings),
+          dx_(geometry_.dx()),
+          wide_(smoothingKernel::New("WendlandC2", geometry_.nDims(), settings.support / 2)),
+          narrow_(smoothingKernel::New("WendlandC2", geometry_.nDims(), narrowSupport * dx_ / 2)),
+          cell_(std::pow(dx_, geometry_.nDims())),
+          full_(wide_->latticeSum(dx_)),
+          pairs_(geometry_, settings.support)
+    {
+    }
+
+    void run()
+    {
+        for (label it = 0; it < settings_.iterations; ++it)
+        {
+            const scalar left = 1 - scalar(it) / settings_.iterations;
+            step(std::min(1.0, 2 * left));
+            if (it % correctionInterval == correctionInterval - 1 && left > 0.25) correct();
+        }
+        matchTargets();
+    }
+
+private:
+    // One move of all particles along the repulsion
+    void step(scalar rate)
+    {
+        pairs_.refresh(particles_);
+        parallelFor(label(particles_.size()), [&](label begin, label end) {
+            repulsion work;
+            for (label i = begin; i < end; ++i) move(i, rate * push(i, work));
+        });
+    }
+
+    struct repulsion
+    {
+        List<vector> apart;
+        List<scalar> distSqr, wide, narrow;
+    };
+
+    vector push(label i, repulsion& work) const
+    {
+        const auto [first, last] = pairs_.of(i);
+        const size_t n = size_t(last - first);
+        work.apart.resize(n), work.distSqr.resize(n), work.wide.resize(n), work.narrow.resize(n);
+        for (size_t k = 0; k < n; ++k)
+        {
+            work.apart[k] = pairs_.x(i) - pairs_.x(first[k]);
+            work.distSqr[k] = work.apart[k].squaredNorm();
+        }
+        wide_->F(work.distSqr.data(), work.wide.data(), label(n));
+        narrow_->F(work.distSqr.data(), work.narrow.data(), label(n));
+        vector sum = vector::Zero();
+        for (size_t k = 0; k < n; ++k)
+            sum -= (wideRate * work.wide[k] + narrowRate * work.narrow[k]) * work.apart[k];
+        return cell_ * dx_ * dx_ * sum;
+    }
+
+    void move(label i, vector by)
+    {
+        packedParticle& p = particles_[i];
+        const scalar length = by.norm(), most = longestMove * dx_;
+        if (length > most) by *= most / length;
+        if (geometry_.nDims() == 2) by[2] = 0;
+        if (p.where != place::zone)
+        {
+            const vector drift = p.x + by - p.seed;
+            const scalar far = longestDrift * dx_;
+            if (drift.norm() > far) by = p.seed + far / drift.norm() * drift - p.x;
+        }
+        guides_.hold(p, by);
+    }
+
+    scalar kernelSum(const cellList& cells, const vector& x) const
+    {
+        scalar sum = 0;
+        cells.near(x, settings_.support, [&](label, scalar d2) { sum += wide_->W(std::sqrt(d2)); });
+        return cell_ * sum / full_;
+    }
+
+    List<scalar> kernelSums() const
+    {
+        const List<vector> x = withImagePoints(particles_, geometry_, settings_.support);
+        const cellList cells(x, settings_.support);
+        List<scalar> sum(particles_.size());
+        parallelFor(label(sum.size()), [&](label begin, label end) {
+            for (label i = begin; i < end; ++i) sum[i] = kernelSum(cells, x[i]);
+        });
+        return sum;
+    }
+
+    void correct();
+    void matchTargets();
+    void change(label most, bool final);
+    bool birthPlace(const cellList& cells, const packedParticle& parent,
+                    packedParticle& born) const;
+
+    List<packedParticle>& particles_;
+    const packingGuides& guides_;
+    const zoneGeometry& geometry_;
+    const List<label>& target_;
+    relaxationSettings settings_;
+    scalar dx_;
+    std::unique_ptr<smoothingKernel> wide_, narrow_;
+    scalar cell_, full_;
+    packingPairs pairs_;
+};
+
+// The roomiest place around a particle, in the same zone and bound alike
+bool relaxation::birthPlace(const cellList& cells, const packedParticle& parent,
+                            packedParticle& born) const
+{
+    scalar best = 0.6 * dx_;
+    for (int a = -1; a <= 1; ++a)
+        for (int b = -1; b <= 1; ++b)
+            for (int c = -1; c <= 1; ++c)
+            {
+                if ((a == 0 && b == 0 && c == 0) || (geometry_.nDims() == 2 && c != 0)) continue;
+                packedParticle p = parent;
+                guides_.hold(p, 0.9 * dx_ * vector(a, b, c).normalized(), true);
+                if (geometry_.beyondSymmetry(p.x) >= 0) continue;
+                if (p.where == place::zone && geometry_.zoneAt(p.x) != p.owner) continue;
+                scalar nearest = dx_ * dx_;
+                cells.near(p.x, dx_, [&](label, scalar d2) { nearest = std::min(nearest, d2); });
+                if (std::sqrt(nearest) <= best) continue;
+                best = std::sqrt(nearest);
+                born = p;
+            }
+    born.seed = born.x;
+    return best > 0.6 * dx_;
+}
+
+// Adds where sums are lowest and removes where they are highest, at most `most` of each per zone
+void relaxation::change(label most, bool final)
+{
+    const List<scalar> sum = kernelSums();
+    List<List<label>> member(geometry_.zones().size());
+    for (size_t i = 0; i < particles_.size(); ++i)
+        if (particles_[i].where == place::zone) member[particles_[i].owner].push_back(label(i));
+    const List<vector> x = withImagePoints(particles_, geometry_, settings_.support);
+    const cellList cells(x, settings_.support);
+    List<char> gone(particles_.size(), 0), touched(particles_.size(), 0);
+    List<packedParticle> born;
+    const auto isolate = [&](label i) {
+        cells.near(x[i], 2 * dx_, [&](label j, scalar) {
+            if (j < label(touched.size())) touched[j] = 1;
+        });
+    };
+    for (size_t z = 0; z < member.size(); ++z)
+    {
+        auto& m = member[z];
+        std::sort(m.begin(), m.end(),
+                  [&](label a, label b) { return sum[a] < sum[b] || (sum[a] == sum[b] && a < b); });
+        const label excess = label(m.size()) - target_[z];
+        label remove = std::max<label>(0, excess), add = std::max<label>(0, -excess);
+        if (!final) remove = std::min(remove, most), add = std::min(add, most);
+        // Exchanges: as many again where sums are far off
+        label high = 0, low = 0;
+        for (const label i : m) high += sum[i] > 1 + tolerableSum, low += sum[i] < 1 - tolerableSum;
+        const label swap = final ? 0 : std::min({high, low, most});
+        remove += swap, add += swap;
+        for (size_t k = m.size(); k-- > 0 && remove > 0;)
+            if (!touched[m[k]]) gone[m[k]] = 1, --remove, isolate(m[k]);
+        packedParticle p;
+        for (size_t k = 0; k < m.size() && add > 0; ++k)
+            if (!touched[m[k]] && birthPlace(cells, particles_[m[k]], p))
+                born.push_back(p), --add, isolate(m[k]);
+    }
+    List<packedParticle> kept;
+    for (size_t i = 0; i < particles_.size(); ++i)
+        if (!gone[i]) kept.push_back(particles_[i]);
+    kept.insert(kept.end(), born.begin(), born.end());
+    particles_ = std::move(kept);
+}
+
+void relaxation::correct()
+{
+    change(std::max<label>(20, label(particles_.size() / 200)), false);
+}
+
+void relaxation::matchTargets()
+{
+    change(0, true);
+    for (label it = 0; it < 20; ++it) step(0.5);
+    for (packedParticle& p : particles_) guides_.hold(p, vector::Zero(), true);
+}
+
+}  // namespace
+
+void relaxPacking(List<packedParticle>& particles, const packingGuides& guides,
+                  const List<label>& target, const relaxationSettings& settings)
+{
+    relaxation(particles, guides, target, settings).run();
+}
+
+placedParticles finishPacking(const List<packedParticle>& particles, const zoneGeometry& geometry,
+                              const exterior& outside, scalar support)
+{
+    placedParticles placed;
+    for (const packedParticle& p : particles)
+    {
+        if (p.where == place::filler) continue;
+        if (p.where == place::rigid)
+        {
+            placed.rigid.push_back(p.x), placed.rigidPatch.push_back(p.owner);
+            continue;
+        }
+        placed.x.push_back(p.x);
+        placed.strip.push_back(p.where == place::strip ? p.owner : -1);
+        placed.zone.push_back(p.where == place::zone ? p.owner : outside.at(p.x).zone);
+    }
+    sortByPhase(placed, geometry.zones());
+    dropUnseenRigid(placed, geometry, support);
+    return placed;
+}
+
+placedParticles placeBodyFitted(const zoneGeometry& geometry, const exterior& outside,
+                                scalar support, label stripLayers)
+{
+    const packingGuides guides(geometry, outside);
+    List<label> target;
+    List<packedParticle> particles = seedPacking(guides, stripLayers, target);
+    relaxationSettings settings;
+    settings.support = support;
+    relaxPacking(particles, guides, target, settings);
+    return finishPacking(particles, geometry, outside, support);
+}
+
+}  // namespace ispf

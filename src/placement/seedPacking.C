@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Space near surfaces is cut into bands one particle thick.  A fine jittered lattice of samples measures
+// each band's volume, which tells how many particles it takes; the samples themselves, moved to the
+// middle of the band, are what the particles are chosen from.  Corners, edges and curvature need no
+// special care: a sample belongs to the surface nearest to it.
+#include "packing.H"
+
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace ispf
+{
+
+namespace
+{
+
+using place = packedParticle::place;
+
+constexpr scalar samplesPerSpacing = 2.5;
+constexpr label bandsOfThick = 2;  // along each surface of a zone that is not thin
+constexpr scalar thinBelow = 5.5;  // in dx: the whole thickness is made of bands
+
+struct sample
+{
+    packedParticle p;
+    label band = -1;
+    scalar width = 0;  // of the band
+    bool thin = false;
+};
+
+// A number in [-0.5, 0.5) that depends on the cell and the axis alone
+scalar jitter(std::int64_t i, std::int64_t j, std::int64_t k, int axis)
+{
+    std::uint64_t h = std::uint64_t(i) * 0x9E3779B97F4A7C15ull ^
+                      std::uint64_t(j) * 0xC2B2AE3D27D4EB4Full ^
+                      std::uint64_t(k) * 0x165667B19E3779F9ull ^ std::uint64_t(axis + 1) << 56;
+    h ^= h >> 31, h *= 0xBF58476D1CE4E5B9ull, h ^= h >> 29, h *= 0x94D049BB133111EBull,
+        h ^= h >> 32;
+    return scalar(h >> 11) / scalar(1ull << 53) - 0.5;
+}
+
+class sampler
+{
+public:
+    sampler(const packingGuides& guides, label stripLayers)
+        : guides_(guides),
+          geometry_(guides.geometry()),
+          dx_(geometry_.dx()),
+          stripLayers_(stripLayers)
+    {
+    }
+
+    // False: x is in no band
+    bool at(const vector& x, sample& s) const
+    {
+        if (geometry_.beyondSymmetry(x) >= 0) return false;
+        const label zone = geometry_.zoneAt(x);
+        return zone >= 0 ? inZone(x, zone, s) : outside(x, s);
+    }
+
+private:
+    bool inZone(const vector& x, label zone, sample& s) const
+    {
+        const surfacePoint q = guides_.surface(zone).nearest(x, 0.5 * thinBelow * dx_);
+        if (!q.found) return false;
+        const vector inward =
+            q.distance > 1e-3 * dx_ ? vector((x - q.point) / q.distance) : vector(-q.normal);
+        const scalar t = guides_.zoneThickness(zone, q.point, inward, thinBelow * dx_);
+        const bool thin = s.thin = std::isfinite(t);
+        const scalar width = thin ? t / std::max<scalar>(1, std::round(t / dx_)) : dx_;
+        s.width = width;
+        s.band = label(q.distance / width);
+        if (!thin && s.band >= bandsOfThick) return false;
+        // Layers of solids keep their place, so that a wall has as many as fit; a fluid finds its own
+        const bool solid = geometry_.zones()[zone].phase == phaseType::solid;
+        s.p.where = place::zone, s.p.owner = zone;
+        s.p.depth = s.band == 0 && solid ? 0.5 * width : -1;
+        s.p.x = q.point + (s.band + 0.5) * width * inward;
+        return true;
+    }
+
+    bool outside(const vector& x, sample& s) const
+    {
+        const exteriorPoint q = guides_.outside().at(x);
+        if (q.type == exteriorPoint::kind::nothing) return false;
+        const bool rigid = q.type == exteriorPoint::kind::rigid;
+        scalar width = dx_;
+        if (rigid)
+        {
+            const scalar reach = 2 * guides_.outside().wallThickness();
+            const scalar t = guides_.rigidThickness(q.foot, q.normal, reach);
+            // Rather one layer more: fluid on both sides misses what is missing
+            if (std::isfinite(t)) width = t / std::max<scalar>(1, std::ceil(t / dx_ - 0.3));
+        }
+        s.width = width;
+        s.band = label(q.depth / width);
+        s.p.where = rigid                                  ? place::rigid
+                    : q.type == exteriorPoint::kind::strip ? place::strip
+                                                           : place::filler;
+        s.p.owner = q.patch;
+        s.p.depth = (s.band + 0.5) * width;
+        s.p.x = q.foot + s.p.depth * q.normal;
+        return true;
+    }
+
+    const packingGuides& guides_;
+    const zoneGeometry& geometry_;
+    scalar dx_;
+    label stripLayers_;
+};
+
+using bandKey = std::tuple<place, label, label>;  // where, owner, band
+
+using bandSamples = std::map<bandKey, List<sample>>;
+using depthAndParticle = std::pair<scalar, packedParticle>;
+
+class sweeper
+{
+public:
+    sweeper(const packingGuides& guides, const sampler& bands)
+        : guides_(guides), geometry_(guides.geometry()), sampler_(bands), dx_(geometry_.dx())
+    {
+        const boundBox box = guides.outside().bounds();
+        for (int k = 0; k < 3; ++k)
+        {
+            low_[k] = std::int64_t(std::floor(box.min[k] / dx_)) - 1;
+            n_[k] = std::int64_t(std::ceil(box.max[k] / dx_)) + 1 - low_[k];
+        }
+        if (geometry_.nDims() == 2) low_[2] = 0, n_[2] = 1;
+        for (size_t z = 0; z < geometry_.zones().size(); ++z)
+            surfaces_.push_back(&guides.surface(label(z)));
+    }
+
+    bandSamples all() const
+    {
+        const bool flat = n_[2] == 1;
+        List<bandSamples> slices(flat ? n_[1] : n_[2]);
+        parallelFor(
+            label(slices.size()),
+            [&](label begin, label end) {
+                for (label k = begin; k < end; ++k)
+                    for (std::int64_t j = flat ? k : 0; j < (flat ? k + 1 : n_[1]); ++j)
+                        for (std::int64_t i = 0; i < n_[0]; ++i)
+                            cell(low_[0] + i, low_[1] + j, flat ? 0 : low_[2] + k, slices[k]);
+            },
+            1);
+        bandSamples total;
+        for (bandSamples& slice : slices)
+            for (auto& [key, list] : slice)
+                total[key].insert(total[key].end(), list.begin(), list.end());
+        return total;
+    }
+
+private:
+    bool nearSurface(const vector& x, scalar radius) const
+    {
+        for (const surfaceSearch* s : surfaces_)
+            if (s->within(x, radius)) return true;
+        return false;
+    }
+
+    void cell(std::int64_t i, std::int64_t j, std::int64_t k, bandSamples& out) const
+    {
+        vector centre = dx_ * vector(i + 0.5, j + 0.5, k + 0.5);
+        if (geometry_.nDims() == 2) centre[2] = 0;
+        const scalar reach = std::max(guides_.outside().wallThickness(), 0.5 * thinBelow * dx_);
+        if (geometry_.beyondSymmetry(centre) < dx_ && nearSurface(centre, reach + dx_))
+            samplesOf(i, j, k, out);
+    }
+
+    void samplesOf(std::int64_t i, std::int64_t j, std::int64_t k, bandSamples& out) const
+    {
+        // Fine cells are numbered through the whole space, so that the jitter is the same everywhere
+        const scalar a = dx_ / samplesPerSpacing;
+        std::int64_t first[3], last[3];
+        const std::int64_t cell[3] = {i, j, k};
+        for (int d = 0; d < 3; ++d)
+        {
+            first[d] = std::int64_t(std::ceil(cell[d] * samplesPerSpacing - 1e-9));
+            last[d] = std::int64_t(std::ceil((cell[d] + 1) * samplesPerSpacing - 1e-9));
+        }
+        if (geometry_.nDims() == 2) first[2] = 0, last[2] = 1;
+        for (std::int64_t c = first[2]; c < last[2]; ++c)
+            for (std::int64_t b = first[1]; b < last[1]; ++b)
+                for (std::int64_t e = first[0]; e < last[0]; ++e)
+                {
+                    vector x(e + 0.5 + 0.9 * jitter(e, b, c, 0), b + 0.5 + 0.9 * jitter(e, b, c, 1),
+                             c + 0.5 + 0.9 * jitter(e, b, c, 2));
+                    x *= a;
+                    if (geometry_.nDims() == 2) x[2] = 0;
+                    sample s;
+                    if (sampler_.at(x, s)) out[{s.p.where, s.p.owner, s.band}].push_back(s);
+                }
+    }
+
+    const packingGuides& guides_;
+    const zoneGeometry& geometry_;
+    const sampler& sampler_;
+    scalar dx_;
+    std::int64_t low_[3], n_[3];
+    List<const surfaceSearch*> surfaces_;
+};
+
+// Points of a lattice that is turned against all axes: along a cylinder or a plate, each plane of an
+// upright one would hold the same wrong number of points
+class turnedLattice
+{
+public:
+    turnedLattice(const packingGuides& guides) : guides_(guides), geometry_(guides.geometry())
+    {
+        const Eigen::AngleAxisd about(0.7, vector(0.36, 0.48, 0.8));
+        turn_ = geometry_.nDims() == 3 ? tensor(about)
+                                       : tensor(Eigen::AngleAxisd(0.4, vector::UnitZ()));
+        half_ = label(std::ceil(0.5 * geometry_.bounds().diagonal() / geometry_.dx())) + 1;
+    }
+
+    // Deeper in a zone than its bands, and a reserve half a band less deep
+    List<depthAndParticle> points(const sampler& bands) const
+    {
+        const bool flat = geometry_.nDims() == 2;
+        const label n = 2 * half_ + 1;
+        List<List<depthAndParticle>> rows(n);
+        parallelFor(
+            n,
+            [&](label begin, label end) {
+                for (label j = begin; j < end; ++j)
+                    for (label k = 0; k < (flat ? 1 : n); ++k)
+                        for (label i = 0; i < n; ++i)
+                            add(vector(i - half_, j - half_, flat ? 0 : k - half_), bands, rows[j]);
+            },
+            1);
+        List<depthAndParticle> all;
+        for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
+        return all;
+    }
+
+private:
+    void add(const vector& index, const sampler& bands, List<depthAndParticle>& row) const
+    {
+        const scalar dx = geometry_.dx();
+        const boundBox box = geometry_.bounds();
+        packedParticle p;
+        p.x = box.centre() + dx * (turn_ * index);
+        if (box.distSqr(p.x) > 0 || geometry_.beyondSymmetry(p.x) >= 0) return;
+        p.owner = geometry_.zoneAt(p.x);
+        if (p.owner < 0) return;
+        const surfacePoint q = guides_.surface(p.owner).nearest(p.x, 2 * bandsOfThick * dx);
+        if (q.found && q.distance < (bandsOfThick - 0.5) * dx) return;
+        sample s;
+        if (bands.at(p.x, s) && s.thin) return;
+        row.push_back({q.found ? q.distance : 1e300, p});
+    }
+
+    const packingGuides& guides_;
+    const zoneGeometry& geometry_;
+    tensor turn_;
+    label half_;
+};
+
+}  // namespace
+
+List<packedParticle> seedPacking(const packingGuides& guides, label stripLayers,
+                                 List<label>& target)
+{
+    const zoneGeometry& geometry = guides.geometry();
+    const scalar dx = geometry.dx(), cell = std::pow(dx, geometry.nDims());
+    const scalar share =
+        std::pow(samplesPerSpacing, -geometry.nDims());  // of a particle, per sample
+    const sampler bands(guides, stripLayers);
+
+    List<packedParticle> seeds;
+    List<label> inBands(geometry.zones().size(), 0);
+    for (const auto& [key, samples] : sweeper(guides, bands).all())
+    {
+        // A band of another width holds its share of the volume closer together, or further apart
+        List<vector> x;
+        List<scalar> spacing;
+        for (const sample& s : samples)
+        {
+            x.push_back(s.p.x);
+            spacing.push_back(dx * std::pow(dx / s.width, 1.0 / (geometry.nDims() - 1)));
+        }
+        const label keep = label(std::lround(share * scalar(samples.size())));
+        if (std::get<0>(key) == place::zone) inBands[std::get<1>(key)] += keep;
+        for (const label i : spreadEvenly(x, spacing, geometry.symmetryPlanes(), keep))
+            seeds.push_back(samples[i].p);
+    }
+    List<List<depthAndParticle>> interior(geometry.zones().size());
+    for (const auto& entry : turnedLattice(guides).points(bands))
+        interior[entry.second.owner].push_back(entry);
+    target.clear();
+    for (size_t z = 0; z < geometry.zones().size(); ++z)
+    {
+        target.push_back(label(std::lround(geometry.volume(label(z)) / cell)));
+        auto& list = interior[z];
+        std::stable_sort(list.begin(), list.end(),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        const label wanted = std::max<label>(0, target[z] - inBands[z]);
+        for (label k = 0; k < std::min(wanted, label(list.size())); ++k)
+            seeds.push_back(list[k].second);
+    }
+    for (packedParticle& p : seeds)
+    {
+        if (p.where == place::strip) p.guard = guides.wallBeside(p.x);
+        guides.hold(p, vector::Zero(), true);
+        p.seed = p.x;
+    }
+    return seeds;
+}
+
+}  // namespace ispf
