@@ -77,7 +77,8 @@ void monolithicPreconditioner::buildLaplacian()
     });
     // rows without neighbours, or of given pressure: any positive diagonal of the right size
     const scalar largest = *std::max_element(L_.diagonal.begin(), L_.diagonal.end());
-    for (scalar& d : L_.diagonal) d = d > 0 ? d * (1 + 1e-9) : largest;
+    for (scalar& d : L_.diagonal)
+        if (!(d > 0)) d = largest;
 }
 
 // u = A^-1 r_u, r the scaled residual
