@@ -47,14 +47,15 @@ bool exterior::findWall(const vector& x, exteriorPoint& wall) const
     {
         if (!isWall(label(p))) continue;
         const bool isFree = p == geometry_.patches().size();
-        const bool still = !isFree && !geometry_.patches()[p].moving;
+        const bool still = isFree || !geometry_.patches()[p].moving;
         // Beside a rim a wall reaches on under the whole strip
         const exteriorPoint q = footOn(label(p), x, wallThickness_ + 2 * stripWidth_);
         if (q.type == exteriorPoint::kind::nothing || q.depth <= 0 || q.depth > wallThickness_)
             continue;
+        // Walls have everything that they reach: filler is not kept
         const bool better = wall.type == exteriorPoint::kind::nothing ||
-                            q.distance < wall.distance - tie ||
-                            (q.distance < wall.distance + tie && still);
+                            (!isFree && (q.distance < wall.distance - tie ||
+                                         (q.distance < wall.distance + tie && still)));
         if (!better) continue;
         wall = q;
         if (isFree) wall.type = exteriorPoint::kind::filler;
