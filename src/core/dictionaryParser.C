@@ -11,7 +11,8 @@ namespace ispf
 namespace
 {
 
-constexpr size_t depthLimit = 200;  // of nested dictionaries; far beyond any sensible case
+constexpr size_t depthLimit = 200;       // of nested dictionaries; far beyond any sensible case
+constexpr size_t lengthLimit = 2000000;  // of a value: macros of macros grow without bound
 
 }  // namespace
 
@@ -168,6 +169,8 @@ void dictionaryParser::appendMacro(const token& name, List<token>& value)
     {
         if (e->isDict)
             fail("$" + name.text + " is a dictionary and cannot stand inside a value.", name);
+        if (value.size() + e->value.size() > lengthLimit)
+            fail("The value grows beyond " + std::to_string(lengthLimit) + " words.", name);
         markRead(*e);
         value.insert(value.end(), e->value.begin(), e->value.end());
     }
@@ -271,6 +274,10 @@ dictionaryEntry* dictionaryParser::place(const token& key, bool isDict)
 
 void dictionaryParser::merge(dictionary::content& to, const dictionary::content& from)
 {
+    if (scopes_.size() > depthLimit)
+        throw fatalError(
+            "Macros nest dictionaries deeper than " + std::to_string(depthLimit) + " levels.",
+            to.where());
     scopes_.push_back(&to);
     for (const dictionaryEntry& f : from.entries)
     {

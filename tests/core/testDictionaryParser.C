@@ -130,6 +130,14 @@ TEST_CASE("broken files: what is wrong, and the line to look at")
     word deep;
     for (int k = 0; k < 300; ++k) deep += "a {";
     CHECK_ERROR(parsed(deep), "nested deeper than 200", 1);
+    word deeper = "a { x 1; }";
+    for (int k = 0; k < 300; ++k) deeper += "\na { a { $:a } }";
+    CHECK_ERROR(parsed(deeper), "nest dictionaries deeper than 200", 0);
+    word longer = "a0 (1 2 3 4);";
+    for (int k = 0; k < 40; ++k)
+        longer += "\na" + std::to_string(k + 1) + " ($a" + std::to_string(k) + " $a" +
+                  std::to_string(k) + ");";
+    CHECK_ERROR(parsed(longer), "grows beyond", 0);
 }
 
 TEST_CASE("harmless oddities: no final newline, CRLF, byte order mark, stray semicolons")
