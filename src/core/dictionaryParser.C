@@ -86,6 +86,7 @@ void dictionaryParser::parseStatements(source& in, const token* opening)
 
 void dictionaryParser::parseEntry(const token& key, source& in)
 {
+    if (key.text.empty()) fail("A keyword is wanted here, found an empty string.", key);
     scalar number;
     if (key.kind == token::plain && readNumber(key.text, number))
         fail("A keyword is wanted here, found the number " + key.text +

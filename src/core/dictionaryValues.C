@@ -243,6 +243,13 @@ word written(const token& t)
     return t.kind == token::verbatim ? "#{" + t.text + "#}" : t.text;
 }
 
+word writtenKey(const dictionaryEntry& e)
+{
+    if (e.pattern || e.key.find('"') != word::npos) return inQuotes(e.key);
+    const List<token> words = tokenize(e.key, "");
+    return words[0].isPlain() && words[0].text == e.key ? e.key : inQuotes(e.key);
+}
+
 word indented(const word& text)
 {
     word out;
@@ -262,7 +269,7 @@ word dictionary::toString() const
     word text;
     for (const dictionaryEntry& e : content_->entries)
     {
-        const word key = e.pattern ? inQuotes(e.key) : e.key;
+        const word key = writtenKey(e);
         if (e.isDict)
         {
             text += key + "\n{\n" + indented(e.dict.toString()) + "}\n";

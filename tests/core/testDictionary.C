@@ -176,9 +176,11 @@ TEST_CASE("reading a copy is reading the original, but writing it is not")
 
 TEST_CASE("toString can be read again")
 {
-    const word text = R"(a 1; s { "p.*" (1 (2 3) x); q "c d;"; i { z [0 1 0 0 0 0 0] 3{1}; } })";
+    const word text =
+        R"("two words" 5; div(phi,U) 6; "5" 7; a 1; s { "p.*" (1 (2 3) x); q "c d;"; i { z [0 1 0 0 0 0 0] 3{1}; } })";
     const dictionary d = parsed(parsed(text).toString());
     CHECK(d.toString() == parsed(text).toString());
+    CHECK(d.keys() == List<word>{"two words", "div(phi,U)", "5", "a", "s"});
     CHECK(d.subDict("s").tokens("pp") == List<word>{"(", "1", "(", "2", "3", ")", "x", ")"});
     CHECK(d.subDict("s").get<word>("q") == "c d;");
     CHECK(d.subDict("s").subDict("i").get<List<scalar>>("z") == List<scalar>(3, 1));

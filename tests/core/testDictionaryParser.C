@@ -125,6 +125,7 @@ TEST_CASE("broken files: what is wrong, and the line to look at")
     CHECK_ERROR(parsed("/* open\n a 1;"), "comment /* begun here is never closed", 1);
     CHECK_ERROR(parsed("x #{ open\n a 1;"), "never closed", 1);
     CHECK_ERROR(parsed("a 1;\n5 b;"), "found the number 5", 2);
+    CHECK_ERROR(parsed("a 1;\n\"\" 2;"), "an empty string", 2);
     CHECK_ERROR(parsed("(a b);"), "keyword is wanted", 1);
     CHECK_ERROR(parsed(word("a 1;\0b", 6)), "not a text file", 1);
     word deep;

@@ -54,6 +54,16 @@ TEST_CASE("a fixed step is left alone and ends nearest to endTime")
     CHECK(t.deltaT() == 0.03);
 }
 
+TEST_CASE("ten steps of 0.1 end at 1, and three of them at a write instant of 0.3")
+{
+    const testCase c("deltaT 0.1; endTime 1; writeControl none; writeTimes (0.3);");
+    Time t = c.time();
+    const record r = runThrough(t);
+    CHECK(r.written == List<scalar>{0.3});  // 0.1 + 0.1 + 0.1 is not 0.3
+    CHECK(r.last == 1);
+    CHECK(t.timeIndex() == 10);
+}
+
 TEST_CASE("adjustableRunTime: instants are hit exactly, and no step is tiny")
 {
     const testCase c(
