@@ -247,7 +247,9 @@ word writtenKey(const dictionaryEntry& e)
 {
     if (e.pattern || e.key.find('"') != word::npos) return inQuotes(e.key);
     const List<token> words = tokenize(e.key, "");
-    return words[0].isPlain() && words[0].text == e.key ? e.key : inQuotes(e.key);
+    scalar number;
+    const bool plain = words[0].isPlain() && words[0].text == e.key && !readNumber(e.key, number);
+    return plain ? e.key : inQuotes(e.key);
 }
 
 word indented(const word& text)

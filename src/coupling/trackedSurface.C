@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trackedSurface.H"
 
+#include "followWeights.H"
+#include "pointGrid.H"
 #include "surfaceTopology.H"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ispf
@@ -24,42 +27,35 @@ trackedSurface::trackedSurface(const word& name, const fsiCase& c) : name_(name)
 void trackedSurface::attach(const fsiCase& c)
 {
     const List<vec4>& x0 = c.cloud.vectors.at("x0");
-    const scalar reach = 2.6 * c.cloud.dx;
+    const scalar reach = 3 * c.cloud.dx;
+    pointGrid solids(reach);
+    for (label j = 0; j < c.cloud.nSolid(); ++j) solids.add(x0[j].xyz());
     const label nv = label(rest_.nodes.size());
-    List<List<std::pair<label, scalar>>> found(nv);
+    List<List<label>> near(nv);
+    List<List<scalar>> weights(nv);
     parallelFor(
         nv,
         [&](label begin, label end) {
             for (label v = begin; v < end; ++v)
             {
-                // w_j = W_j (1, r)^T M^-1 (1, 0), M = sum W (1, r)(1, r)^T: linear reproduction
-                Eigen::Matrix4d M = 1e-9 * Eigen::Matrix4d::Identity();
-                List<std::pair<label, Eigen::Vector4d>> near;
-                for (label j = 0; j < c.cloud.nSolid(); ++j)
-                {
-                    const vector r = (x0[j].xyz() - rest_.nodes[v]) / reach;
-                    if (r.squaredNorm() >= 1) continue;
-                    const Eigen::Vector4d P(1, r[0], r[1], r[2]);
-                    const scalar W = std::pow(1 - r.norm(), 2);
-                    M += W * P * P.transpose();
-                    near.push_back({j, W * P});
-                }
-                if (near.size() < 4)
-                    throw fatalError("Surface " + name_ + ": vertex (" + str(rest_.nodes[v][0]) +
-                                     " " + str(rest_.nodes[v][1]) + " " + str(rest_.nodes[v][2]) +
+                const vector& x = rest_.nodes[v];
+                solids.within(x, reach, [&](label j, scalar) { near[v].push_back(j); });
+                std::sort(near[v].begin(), near[v].end());
+                if (near[v].size() < 4)
+                    throw fatalError("Surface " + name_ + ": vertex (" + str(x[0]) + " " +
+                                     str(x[1]) + " " + str(x[2]) +
                                      ") has no solid particles near it to follow");
-                const Eigen::Vector4d a = M.ldlt().solve(Eigen::Vector4d(1, 0, 0, 0));
-                scalar sum = 0;
-                for (const auto& [j, WP] : near)
-                    found[v].push_back({j, a.dot(WP)}), sum += a.dot(WP);
-                for (auto& [j, w] : found[v]) w /= sum;
+                List<vector> r;
+                for (const label j : near[v]) r.push_back((solids[j] - x) / reach);
+                weights[v] = followWeights(r);
             }
         },
         16);
     start_.push_back(0);
-    for (const auto& list : found)
+    for (label v = 0; v < nv; ++v)
     {
-        for (const auto& [j, w] : list) source_.push_back(j), weight_.push_back(w);
+        source_.insert(source_.end(), near[v].begin(), near[v].end());
+        weight_.insert(weight_.end(), weights[v].begin(), weights[v].end());
         start_.push_back(label(source_.size()));
     }
 }

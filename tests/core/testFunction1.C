@@ -2,11 +2,11 @@
 #include "Function1.H"
 #include "errorOf.H"
 #include "temporaryFolder.H"
+#include "relative.H"
 
 #include <cmath>
 
 using namespace ispf;
-using doctest::Approx;
 
 namespace
 {
@@ -35,13 +35,13 @@ TEST_CASE("tables are linear between their rows, and clamp outside")
                              "f { type table; values ((0 0) (1 10) (3 -10)); }"})
     {
         const auto f = made(text);
-        CHECK(f->value(0.25) == Approx(2.5));
-        CHECK(f->value(2) == Approx(0));
+        CHECK(f->value(0.25) == relative(2.5));
+        CHECK(std::abs(f->value(2)) < 1e-12);
         CHECK(f->value(1) == 10);
         CHECK(f->value(-1) == 0);
         CHECK(f->value(9) == -10);
-        CHECK(f->rate(0.5, 1.5) == Approx(0));  // up 5, down 5
-        CHECK(f->rate(0, 0.5) == Approx(10));
+        CHECK(std::abs(f->rate(0.5, 1.5)) < 1e-12);  // up 5, down 5
+        CHECK(f->rate(0, 0.5) == relative(10));
     }
 }
 
@@ -56,9 +56,9 @@ TEST_CASE("outOfBounds")
     CHECK(with("error")->value(3) == 4);
     const auto f = with("repeat");
     CHECK(f->value(3) == 4);
-    CHECK(f->value(4) == Approx(2));
-    CHECK(f->value(0) == Approx(2));
-    CHECK(f->value(1002.5) == Approx(3));
+    CHECK(f->value(4) == relative(2));
+    CHECK(f->value(0) == relative(2));
+    CHECK(f->value(1002.5) == relative(3));
     CHECK_ERROR(with("wrap"), "Valid outOfBounds are: clamp error repeat warn", 1);
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("tableFile")
     const temporaryFolder c;
     c.write("constant/t.dat", "// time value\n(\n(0 1)\n(2 5)\n)\n");
     const word text = "f { type tableFile; file \"constant/t.dat\"; }";
-    CHECK(made(text, c.path)->value(1) == Approx(3));
+    CHECK(made(text, c.path)->value(1) == relative(3));
     c.write("constant/t.dat", "(\n(0 1)\n(-2 5)\n)\n");
     CHECK_ERROR(made(text, c.path), "must increase", 3);
     CHECK_ERROR(made("\nf { type tableFile; file \"no.dat\"; }", c.path), "There is no file", 2);
@@ -89,10 +89,10 @@ TEST_CASE("csvFile: columns by number and by name, scale, comments, separators")
     const auto f = [&](const word& rest) {
         return made("f { type csvFile; file \"a.csv\"; " + rest + " }", c.path);
     };
-    CHECK(f("nHeaderLine 1;")->value(1) == Approx(2));
-    CHECK(f("nHeaderLine 1; componentColumns (2); scale 1e-3;")->value(1) == Approx(2e-3));
-    CHECK(f("nHeaderLine 1; refColumn time; componentColumns (right);")->value(2) == Approx(3));
-    CHECK(f("nHeaderLine 1; componentColumns (left);")->value(2) == Approx(4));
+    CHECK(f("nHeaderLine 1;")->value(1) == relative(2));
+    CHECK(f("nHeaderLine 1; componentColumns (2); scale 1e-3;")->value(1) == relative(2e-3));
+    CHECK(f("nHeaderLine 1; refColumn time; componentColumns (right);")->value(2) == relative(3));
+    CHECK(f("nHeaderLine 1; componentColumns (left);")->value(2) == relative(4));
     CHECK_ERROR(f("nHeaderLine 1; componentColumns (lft);"), "Valid columns are: left right time",
                 1);
     CHECK_ERROR(f("componentColumns (left);"), "nHeaderLine 1 tells", 1);
@@ -101,7 +101,7 @@ TEST_CASE("csvFile: columns by number and by name, scale, comments, separators")
     c.write("a.csv", "0  1\n1   3\n2 nan\n");
     CHECK_ERROR(f("separator \" \"; mergeSeparators on;"), "finite number", 3);
     c.write("a.csv", "0  1\n1   3\n");
-    CHECK(f("separator \" \"; mergeSeparators on;")->value(0.5) == Approx(2));
+    CHECK(f("separator \" \"; mergeSeparators on;")->value(0.5) == relative(2));
     c.write("a.csv", "0\t1\n0\t3\n");
     CHECK_ERROR(f("separator \"\\t\";"), "must increase", 2);
 }
@@ -109,19 +109,19 @@ TEST_CASE("csvFile: columns by number and by name, scale, comments, separators")
 TEST_CASE("formulas")
 {
     const auto s = made("f { type sine; frequency 2; amplitude 3; scale 0.5; level 1; t0 0.125; }");
-    CHECK(s->value(0.125) == Approx(1));
-    CHECK(s->value(0.25) == Approx(2.5));
+    CHECK(s->value(0.125) == relative(1));
+    CHECK(s->value(0.25) == relative(2.5));
     const auto q = made("f { type square; frequency 0.5; amplitude 3; markSpace 3; level 1; }");
     CHECK(q->value(0.1) == 4);
     CHECK(q->value(1.49) == 4);
     CHECK(q->value(1.51) == -2);
     CHECK(q->value(-0.1) == -2);
     const auto p = made("f polynomial ((2 0) (3 2));");
-    CHECK(p->value(2) == Approx(14));
+    CHECK(p->value(2) == relative(14));
     CHECK(made("f { type polynomial; coeffs ((1 1)); }")->value(5) == 5);
     const auto r = made(
         "f { type scale; scale table ((0 0) (1 1)); value { type sine; frequency 1; "
         "amplitude 2; } }");
-    CHECK(r->value(0.25) == Approx(0.5));
-    CHECK(r->value(1.25) == Approx(2));
+    CHECK(r->value(0.25) == relative(0.5));
+    CHECK(r->value(1.25) == relative(2));
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parallel.H"
+#include "errorOf.H"
+#include "relative.H"
 
 #include <algorithm>
 #include <atomic>
@@ -55,7 +57,7 @@ TEST_CASE("dot and norm against the plain sums")
     List<scalar> a(n), b(n, 2.0);
     for (label i = 0; i < n; ++i) a[i] = i;
     CHECK(dot(a, b) == scalar(n) * (n - 1));  // integers: exact
-    CHECK(norm(b) == doctest::Approx(2 * std::sqrt(scalar(n))));
+    CHECK(norm(b) == relative(2 * std::sqrt(scalar(n))));
     CHECK(parallelSum(n, [](label i, label e) { return scalar(e - i); }) == n);
 }
 
@@ -91,4 +93,14 @@ TEST_CASE("parallelFor covers every index once")
         for (const auto& h : hits) wrong += h != 1;
         CHECK(wrong == 0);
     }
+}
+
+TEST_CASE("an error in a thread reaches the caller")
+{
+    const threads t(2);
+    const auto wrong = [](label begin, label end) {
+        if (begin <= 4567 && 4567 < end) throw fatalError("at 4567");
+    };
+    CHECK_ERROR(parallelFor(10000, wrong, 10), "at 4567", 0);
+    CHECK_ERROR(parallelFor(5000, wrong, 5000), "at 4567", 0);
 }

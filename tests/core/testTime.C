@@ -2,12 +2,12 @@
 #include "Time.H"
 #include "errorOf.H"
 #include "temporaryFolder.H"
+#include "relative.H"
 
 #include <csignal>
 #include <cmath>
 
 using namespace ispf;
-using doctest::Approx;
 
 namespace
 {
@@ -48,9 +48,9 @@ TEST_CASE("a fixed step is left alone and ends nearest to endTime")
     Time t = c.time();
     const record r = runThrough(t);
     CHECK(t.timeIndex() == 33);
-    CHECK(r.last == Approx(0.99));
+    CHECK(r.last == relative(0.99));
     CHECK(r.written.size() == 3);
-    CHECK(r.written[0] == Approx(0.3));
+    CHECK(r.written[0] == relative(0.3));
     CHECK(t.deltaT() == 0.03);
 }
 
@@ -105,8 +105,8 @@ TEST_CASE("runTime writes at the first step past an instant; maxDeltaT limits")
     CHECK(t.deltaT() == 0.03);
     const record r = runThrough(t, [](scalar) { return 0.04; });
     REQUIRE(r.written.size() == 3);
-    CHECK(r.written[0] == Approx(0.12));
-    CHECK(r.written[1] == Approx(0.21));
+    CHECK(r.written[0] == relative(0.12));
+    CHECK(r.written[1] == relative(0.21));
     CHECK(r.written[2] == 0.3);
 }
 

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surfaceSection.H"
 #include "roundSurfaces.H"
+#include "relative.H"
 
 #include <cmath>
 #include <doctest/doctest.h>
 
 using namespace ispf;
-using doctest::Approx;
 
 TEST_CASE("a prism of n sides: the radius of its polygon at every angle")
 {
     const label n = 12;
     const triSurface prism = tube(2, 5, n, 3);
     const axisFrame frame({0, 0, 2.1}, {0, 0, 3});
-    CHECK(frame.e1.dot(frame.axis) == Approx(0));
-    CHECK(frame.e1.cross(frame.e2).dot(frame.axis) == Approx(1));
+    CHECK(std::abs(frame.e1.dot(frame.axis)) < 1e-15);
+    CHECK(frame.e1.cross(frame.e2).dot(frame.axis) == relative(1));
     const label angles = 360;
     const List<scalar> r = sectionRadii(prism, {}, frame, 0, angles);
     const scalar side = 2 * M_PI / n, turn = std::atan2(frame.e1[1], frame.e1[0]);
@@ -22,7 +22,7 @@ TEST_CASE("a prism of n sides: the radius of its polygon at every angle")
     {
         const scalar angle = (k + 0.5) * 2 * M_PI / angles + turn;
         const scalar inSide = angle - side * std::floor(angle / side) - side / 2;
-        CHECK(r[k] == Approx(2 * std::cos(side / 2) / std::cos(inSide)).epsilon(1e-12));
+        CHECK(r[k] == relative(2 * std::cos(side / 2) / std::cos(inSide), 1e-12));
     }
 }
 
@@ -37,7 +37,7 @@ TEST_CASE("a sphere, an oblique axis, heights")
     {
         const diameterRange d = diametersOf(sectionRadii(s, {}, frame, height, 180));
         const scalar exact = 2 * std::sqrt(9 - height * height);
-        CHECK(d.mean == Approx(exact).epsilon(1e-3));  // facets of 4.5 degrees: sag 8e-4
+        CHECK(d.mean == relative(exact, 1e-3));  // facets of 4.5 degrees: sag 8e-4
         CHECK(d.max <= exact * (1 + 1e-12));
     }
     const diameterRange above = diametersOf(sectionRadii(s, {}, frame, 3.1, 180));
@@ -61,7 +61,7 @@ TEST_CASE("symmetry planes complete a quarter; others do not matter")
     CHECK(about.size() == 3);
     const List<scalar> a = sectionRadii(whole, {}, frame, 0, 90);
     const List<scalar> b = sectionRadii(quarter, about, frame, 0, 90);
-    for (size_t k = 0; k < a.size(); ++k) CHECK(b[k] == Approx(a[k]).epsilon(1e-12));
+    for (size_t k = 0; k < a.size(); ++k) CHECK(b[k] == relative(a[k], 1e-12));
     CHECK(std::isnan(diametersOf(sectionRadii(quarter, {}, frame, 0, 90)).mean));
 }
 
@@ -72,8 +72,8 @@ TEST_CASE("of two walls the inner one is met; an ellipse has a least and a great
     for (vector& x : both.nodes) x[1] *= 0.5;
     const diameterRange d =
         diametersOf(sectionRadii(both, {}, axisFrame({0, 0, 2.1}, {0, 0, 1}), 0, 720));
-    CHECK(d.max == Approx(4).epsilon(2e-3));
-    CHECK(d.min == Approx(2).epsilon(2e-3));
+    CHECK(d.max == relative(4, 2e-3));
+    CHECK(d.min == relative(2, 2e-3));
     CHECK(d.mean < 3.2);
     CHECK(d.mean > 2.2);
 }

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "followWeights.H"
+
+#include <algorithm>
+
+namespace ispf
+{
+
+namespace
+{
+
+using matrix = Eigen::MatrixXd;
+using row = Eigen::RowVectorXd;
+
+// Singular values below this share of the greatest: linear modes that the particles do not span (one
+// layer), quadratic modes that would amplify noise (two layers)
+constexpr scalar linearCut = 1e-6, quadraticCut = 0.02;
+
+// The columns as functions of the particles, and their values at the point itself
+struct basis
+{
+    matrix columns;
+    row atPoint;
+
+    void removeFrom(basis& other) const
+    {
+        const matrix share = columns.transpose() * other.columns;
+        other.columns -= columns * share;
+        other.atPoint -= atPoint * share;
+    }
+};
+
+// Orthonormal modes of b whose singular values are above cut times the greatest
+basis orthonormal(const basis& b, scalar cut, scalar greatest)
+{
+    const Eigen::JacobiSVD<matrix> svd(b.columns, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const auto& s = svd.singularValues();
+    Eigen::Index n = 0;
+    while (n < s.size() && s[n] > cut * greatest) ++n;
+    basis q;
+    q.columns = svd.matrixU().leftCols(n);
+    q.atPoint = b.atPoint * svd.matrixV().leftCols(n) * s.head(n).cwiseInverse().asDiagonal();
+    return q;
+}
+
+}  // namespace
+
+List<scalar> followWeights(const List<vector>& r)
+{
+    const Eigen::Index n = Eigen::Index(r.size());
+    Eigen::VectorXd root(n);  // of the fit's weight
+    for (Eigen::Index j = 0; j < n; ++j) root[j] = std::max(0.0, 1 - r[j].norm());
+    if (!(root.norm() > 0)) return {};
+
+    basis one{root, row::Ones(1)}, linear{matrix(n, 3), row::Zero(3)};
+    basis quadratic{matrix(n, 6), row::Zero(6)};
+    for (Eigen::Index j = 0; j < n; ++j)
+    {
+        const vector& x = r[j];
+        linear.columns.row(j) = root[j] * x.transpose();
+        quadratic.columns.row(j) = root[j] * row{{x[0] * x[0], x[1] * x[1], x[2] * x[2],
+                                                  x[0] * x[1], x[1] * x[2], x[2] * x[0]}};
+    }
+    const scalar scale = root.norm();
+    one = {one.columns / scale, one.atPoint / scale};
+    one.removeFrom(linear), one.removeFrom(quadratic);
+    linear = orthonormal(linear, linearCut, scale);
+    linear.removeFrom(quadratic);
+    quadratic = orthonormal(quadratic, quadraticCut, scale);
+
+    Eigen::VectorXd w = one.columns * one.atPoint.transpose() +
+                        linear.columns * linear.atPoint.transpose() +
+                        quadratic.columns * quadratic.atPoint.transpose();
+    w.array() *= root.array();
+    return List<scalar>(w.data(), w.data() + n);
+}
+
+}  // namespace ispf
