@@ -164,7 +164,7 @@ TEST_CASE("particles that went through a wall that has moved are counted, and ho
     f.execute();
     const auto row = s.rows("leaks/0/surfaceLeaks.dat").at(1);
     CHECK(row[1] == 3);
-    CHECK(row[2] == Approx(0.5e-3).epsilon(0.05));
+    CHECK(row[2] == relative(0.5e-3, 0.05));
 }
 
 TEST_CASE("a surface with as many particles on one side as on the other has no right side")
