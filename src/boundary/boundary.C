@@ -91,7 +91,7 @@ boundary::~boundary() = default;
 void boundary::setStep(scalar t0, scalar t1)
 {
     content_->walls.setStep(t0, t1);
-    for (openFace& face : content_->openFaces) face.setStep(t0, t1);
+    for (openFace& face : content_->openFaces) face.setTime(t1);
 }
 
 void boundary::setFlags(particleCloud& cloud) const

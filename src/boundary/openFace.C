@@ -17,7 +17,8 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
       stripWidth_(
           dict.getInRangeOrDefault("stripWidth", 0.9 * cloud.dx, 10 * cloud.dx, 1.5 * cloud.dx)),
       depth_(stripWidth_ + 0.5 * dx_),
-      p_(Function1::New("p", dict, caseFolder))
+      p_(Function1::New("p", dict, caseFolder)),
+      spotGrid_(1.5 * cloud.dx)
 {
     const scalar reach = depth_ + 2 * dx_;
     if (dict.chooseOrDefault("surface", {"triSurface", "plane"}, "triSurface") == "plane")

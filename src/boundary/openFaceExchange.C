@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <queue>
+#include <tuple>
 
 namespace ispf
 {
@@ -11,7 +12,8 @@ namespace
 {
 
 constexpr scalar closest = 0.75;  // [dx] no particle is put nearer than this to another one
-constexpr scalar widest = 1.2;    // [dx] a hole of this radius is filled even if none is missing
+constexpr scalar missingHere = 0.25, missingAround = 0.75;  // particles, see openFace.H
+constexpr scalar widest = 1.4;    // [dx] a hole of this radius is filled even if none is missing
 
 }  // namespace
 
@@ -22,8 +24,10 @@ struct openFace::census
     pointGrid feet;       // of the fluid in the strip
     pointGrid particles;  // all, from 1.5 dx before the face
     List<label> index;    // of the particles in the cloud
+    pointGrid entered;    // feet of those that came in through the surface in this step
+    List<scalar> beyond;  // how far they have come
 
-    census(const particleCloud& c, scalar region) : cloud(c), feet(region), particles(1.5 * c.dx) {}
+    census(const particleCloud& c, scalar region) : cloud(c), feet(region), particles(1.5 * c.dx), entered(region) {}
 
     // share(j, weight) for the fluid of a zone within 1.5 dx of x; weights of sum one
     template <class Share>
@@ -67,33 +71,40 @@ openFace::census openFace::count(const particleCloud& cloud, const List<surfaceF
         const surfaceFoot& f = feet[i];
         if (!f.found || f.depth < -1.5 * dx_) continue;
         c.particles.add(cloud.x[i].xyz()), c.index.push_back(i);
-        if (f.depth > 0 && cloud.isFluid(i)) c.feet.add(f.foot);
+        if (!cloud.isFluid(i)) continue;
+        if (f.depth > 0)
+            c.feet.add(f.foot);
+        else if (cloud.pFixed[i])
+            c.entered.add(f.foot), c.beyond.push_back(-f.depth);
     }
     return c;
 }
 
-// Spots in the order of their holes, the largest first; each new particle shrinks those around it
+// Spots whose nearest particle is about a spacing away come first: new particles then close up like
+// a lattice, where the largest holes first would leave gaps too narrow to fill
 List<label> openFace::choose(const census& c) const
 {
-    using candidate = std::pair<scalar, label>;  // hole radius, spot
-    const auto smaller = [](const candidate& a, const candidate& b) {
-        return a.first != b.first ? a.first < b.first : a.second > b.second;
-    };
-    std::priority_queue<candidate, List<candidate>, decltype(smaller)> queue(smaller);
-    for (label k = 0; k < label(spots_.size()); ++k)
+    using candidate = std::tuple<scalar, label, scalar>;  // misfit, spot, its hole at that time
+    std::priority_queue<candidate, List<candidate>, std::greater<>> queue;
+    List<scalar> hole(spots_.size());
+    const auto offer = [&](label k)
     {
-        const scalar hole = c.particles.nearest(spots_[k].x, 1.5 * dx_);
-        if (hole >= closest * dx_) queue.push({hole, k});
-    }
+        if (hole[k] >= closest * dx_) queue.push({std::abs(hole[k] - dx_), k, hole[k]});
+    };
+    for (label k = 0; k < label(spots_.size()); ++k)
+        hole[k] = c.particles.nearest(spots_[k].x, 1.5 * dx_), offer(k);
+
     List<label> chosen;
-    pointGrid added(1.5 * dx_), addedFeet(region_);
-    const auto missing = [&](const spot& at, scalar full, scalar radius) {
+    pointGrid addedFeet(region_);
+    const auto missing = [&](const spot& at, scalar full, scalar radius)
+    {
         const auto subtract = [&](label, scalar r) { full -= weight(r / radius); };
         c.feet.within(at.foot, radius, subtract);
         addedFeet.within(at.foot, radius, subtract);
         return full;
     };
-    const auto flowsOut = [&](const spot& at) {
+    const auto flowsOut = [&](const spot& at)
+    {
         scalar out = 0;
         c.around(at.x, at.zone,
                  [&](label j, scalar w) { out += w * c.cloud.Up[j].xyz().dot(at.normal); });
@@ -101,22 +112,32 @@ List<label> openFace::choose(const census& c) const
     };
     while (!queue.empty())
     {
-        const auto [hole, k] = queue.top();
+        const auto [misfit, k, then] = queue.top();
         queue.pop();
+        if (then != hole[k]) continue;
         const spot& at = spots_[k];
-        const scalar now = added.nearest(at.x, hole);
-        if (now < closest * dx_) continue;
-        if (now < hole)
-        {
-            queue.push({now, k});
-            continue;
-        }
-        const bool wanted = missing(at, at.fullNear, near_) >= 0.25 &&
-                            missing(at, at.fullRegion, region_) >= 0.5 && !flowsOut(at);
-        if (!wanted && hole < widest * dx_) continue;
-        added.add(at.x), addedFeet.add(at.foot), chosen.push_back(k);
+        const bool wanted = missing(at, at.fullNear, near_) >= missingHere &&
+                            missing(at, at.fullRegion, region_) >= missingAround && !flowsOut(at);
+        if (!wanted && hole[k] < widest * dx_) continue;
+        addedFeet.add(at.foot), chosen.push_back(k);
+        spotGrid_.within(at.x, 1.5 * dx_,
+                         [&](label other, scalar r)
+                         {
+                             if (r < hole[other]) hole[other] = r, offer(other);
+                         });
     }
     return chosen;
+}
+
+// A particle that left the strip through the surface is so far beyond it; the one that takes its
+// place has come as far from the outer end, else whole layers would lose up to a step each
+scalar openFace::lag(const census& c, const spot& at) const
+{
+    scalar sum = 0, weights = 0;
+    c.entered.within(at.foot, near_,
+                     [&](label k, scalar r)
+                     { sum += weight(r / near_) * c.beyond[k], weights += weight(r / near_); });
+    return weights > 0 ? sum / weights : 0;
 }
 
 // All fields of a newcomer are the weighted mean of its zone's particles within 1.5 dx
@@ -133,10 +154,8 @@ void openFace::insert(particleCloud& cloud, const census& c, const List<label>& 
             for (auto& [name, field] : cloud.vectors) field[i].s += w * field[j].s;
             for (auto& [name, field] : cloud.scalars) field[i] += w * field[j];
         });
-        // it came in some time during the step: half a step ago in the mean
-        const scalar inward = -0.5 * dt_ * cloud.Up[i].xyz().dot(at.normal);
         if (at.depth > 0.9 * depth_)
-            cloud.x[i].setXyz(at.x - std::clamp(inward, 0.0, 0.25 * dx_) * at.normal);
+            cloud.x[i].setXyz(at.x - std::min(lag(c, at), 0.5 * dx_) * at.normal);
         cloud.Up[i][3] = given_, cloud.pFixed[i] = 1, cloud.pGiven[i] = given_;
     }
 }

@@ -11,7 +11,7 @@ namespace ispf
 namespace
 {
 
-constexpr int perCell = 3;  // sample points of a cell along each axis
+constexpr int perAxis = 3;  // sample points of a cell, to the power of nDims
 
 // Two unit vectors across n; in two dimensions one in the plane
 List<vector> tangents(const vector& n, int nDims)
@@ -21,24 +21,29 @@ List<vector> tangents(const vector& n, int nDims)
     return {across, n.cross(across)};
 }
 
-// The points of a fine raster within 1.5 dx of a site
+// Points that fill the cells within 1.5 dx of a site.  Quasi-random inside a cell (Roberts' additive
+// sequence): a regular raster would count the layers of an oblique strip, not its volume
 List<vector> samplesAround(const List<vector>& sites, scalar dx, int nDims)
 {
-    const scalar fine = dx / perCell;
-    const int reach = perCell * 3 / 2, reachZ = nDims == 3 ? reach : 0;
     std::set<std::array<int, 3>> cells;
     for (const vector& x : sites)
-    {
-        int c[3];
-        for (int d = 0; d < 3; ++d) c[d] = int(std::floor(x[d] / fine));
-        for (int i = -reach; i <= reach; ++i)
-            for (int j = -reach; j <= reach; ++j)
-                for (int k = -reachZ; k <= reachZ; ++k)
-                    cells.insert({c[0] + i, c[1] + j, nDims == 3 ? c[2] + k : 0});
-    }
+        for (int i = -2; i <= 2; ++i)
+            for (int j = -2; j <= 2; ++j)
+                for (int k = nDims == 3 ? -2 : 0; k <= (nDims == 3 ? 2 : 0); ++k)
+                    cells.insert({int(std::floor(x[0] / dx)) + i, int(std::floor(x[1] / dx)) + j,
+                                  nDims == 3 ? int(std::floor(x[2] / dx)) + k : 0});
+    const vector step = nDims == 3 ? vector(0.8191725133961645, 0.6710436067037893, 0.5497004779019703)
+                                   : vector(0.7548776662466927, 0.5698402909980532, 0);
+    const int perCell = nDims == 3 ? perAxis * perAxis * perAxis : perAxis * perAxis;
     List<vector> points;
+    vector inCell(0.5, 0.5, nDims == 3 ? 0.5 : 0);
     for (const auto& c : cells)
-        points.push_back(fine * vector(c[0] + 0.5, c[1] + 0.5, nDims == 3 ? c[2] + 0.5 : 0));
+        for (int k = 0; k < perCell; ++k)
+        {
+            inCell += step;
+            for (int d = 0; d < 3; ++d) inCell[d] -= std::floor(inCell[d]);
+            points.push_back(dx * (vector(c[0], c[1], c[2]) + inCell));
+        }
     return points;
 }
 
@@ -78,7 +83,7 @@ void openFace::addSpot(const vector& x, const surfaceFoot& f, std::uint8_t zone,
                 [&](label, scalar r) { s.fullNear += perSample_ * weight(r / near_); });
     full.within(f.foot, region_,
                 [&](label, scalar r) { s.fullRegion += perSample_ * weight(r / region_); });
-    spots_.push_back(s);
+    spots_.push_back(s), spotGrid_.add(x);
 }
 
 void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, const place& allowed)
@@ -97,7 +102,7 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
                              " in constant/openSites.hdf. Its normals must point out of the fluid",
                          where_);
     const pointGrid full = sampleFeet(kept, cloud.nDims, allowed);
-    perSample_ = std::pow(1.0 / perCell, cloud.nDims);
+    perSample_ = std::pow(1.0 / perAxis, cloud.nDims);
 
     pointGrid fluid(2 * dx_), taken(dx_);
     for (label i = cloud.nSolid(); i < cloud.n(); ++i) fluid.add(cloud.x[i].xyz());
@@ -111,7 +116,8 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
                                  "). The strip beyond the surface must be full at the start",
                              where_);
         const std::uint8_t zone = cloud.zone[cloud.nSolid() + nearest];
-        addSpot(kept[k], feet[k], zone, full);
+        // sites of the outermost layer give way to places at the outer end
+        if (feet[k].depth < depth_ - 0.75 * dx_) addSpot(kept[k], feet[k], zone, full);
         addOuterSpots(feet[k], zone, cloud.nDims, {full, taken, allowed});
     }
 }

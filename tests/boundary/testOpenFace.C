@@ -14,8 +14,8 @@ struct reversal
 {
     std::map<word, triSurface> open;
     word otherPatches;  // dictionary text
-    region zone;        // true inside all open faces
-    region strip;       // true up to 1.5 dx beyond them
+    region column;                                // inside all other patches
+    std::function<scalar(const vector&)> depth;  // beyond the open faces
     vector low, high;   // box of the zone
     std::function<vector(const vector&)> velocity;  // times cos(2 pi t): displacement ~ 1/(2 pi)
     vector shift = vector::Zero();                  // of the lattice
@@ -23,7 +23,7 @@ struct reversal
 
 struct outcome
 {
-    label before, after;
+    scalar before, after;
     scalar worstCount = 0;  // over the run, relative
     scalar hole = 0;        // [dx], largest distance of a point of the zone from a particle
     label created, deleted;
@@ -36,7 +36,7 @@ outcome run(const reversal& r, int cycles, int stepsPerCycle)
     const vector margin = vector::Constant(3 * dx);
     word text = r.otherPatches;
     const auto beyond = lattice(dx, r.low - margin, r.high + margin,
-                                [&](const vector& x) { return !r.zone(x) && r.strip(x); }, 3, r.shift);
+                                [&](const vector& x) { return r.column(x) && r.depth(x) > 0 && r.depth(x) < 1.6; }, 3, r.shift);
     std::map<word, List<vector>> sites;
     for (const auto& [name, surface] : r.open)
     {
@@ -45,19 +45,22 @@ outcome run(const reversal& r, int cycles, int stepsPerCycle)
         text += name + " { type open; p 0; }\n";
     }
     f.points("openSites.hdf", sites);
-    List<vector> all = lattice(dx, r.low - margin, r.high + margin, r.zone, 3, r.shift);
+    const auto inZone = [&](const vector& x) { return r.column(x) && r.depth(x) <= 0; };
+    List<vector> all = lattice(dx, r.low - margin, r.high + margin, inZone, 3, r.shift);
     all.insert(all.end(), beyond.begin(), beyond.end());
     particleCloud cloud = fluid(all, dx);
     boundary b(f.path, dictionary::fromString(text), cloud, 2.6 * dx);
 
-    const auto inside = [&]
+    // smoothed over two spacings: layers of the lattice must not count at once
+    const auto volume = [&]
     {
-        label n = 0;
-        for (label i = 0; i < cloud.n(); ++i) n += r.zone(cloud.x[i].xyz());
-        return n;
+        scalar sum = 0;
+        for (label i = 0; i < cloud.n(); ++i)
+            sum += std::clamp(0.5 - 0.5 * r.depth(cloud.x[i].xyz()) / dx, 0.0, 1.0);
+        return sum;
     };
     outcome o;
-    o.before = inside();
+    o.before = volume();
     const scalar dt = 1.0 / stepsPerCycle;
     std::mt19937 random(1);
     std::uniform_real_distribution<scalar> unit(0, 1);
@@ -76,7 +79,7 @@ outcome run(const reversal& r, int cycles, int stepsPerCycle)
             cloud.Up[i] = vec4::from(v), cloud.x[i].setXyz(x + dt * v);
         }
         b.exchange(cloud, t + dt);
-        o.worstCount = std::max(o.worstCount, std::abs(scalar(inside()) / o.before - 1));
+        o.worstCount = std::max(o.worstCount, std::abs(volume() / o.before - 1));
         if (step % 15) continue;
         b.updateGhosts(cloud);
         pointGrid near(2 * dx);
@@ -85,10 +88,10 @@ outcome run(const reversal& r, int cycles, int stepsPerCycle)
         {
             vector x;
             for (int d = 0; d < 3; ++d) x[d] = r.low[d] + unit(random) * (r.high[d] - r.low[d]);
-            if (r.zone(x)) o.hole = std::max(o.hole, near.nearest(x, 2 * dx) / dx);
+            if (inZone(x)) o.hole = std::max(o.hole, near.nearest(x, 2 * dx) / dx);
         }
     }
-    o.after = inside();
+    o.after = volume();
     if (getenv("DUMP"))
     {
         FILE* f = fopen(getenv("DUMP"), "w");
@@ -117,8 +120,8 @@ reversal flatScene()
     reversal r;
     r.low = {0, 0, 0}, r.high = {12, 12, 16};
     const auto column = [](const vector& x) { return x[0] > 0 && x[0] < 12 && x[1] > 0 && x[1] < 12; };
-    r.zone = [=](const vector& x) { return column(x) && x[2] > 0 && x[2] < 16; };
-    r.strip = [=](const vector& x) { return column(x) && x[2] > -1.6 && x[2] < 17.6; };
+    r.column = column;
+    r.depth = [](const vector& x) { return std::max(-x[2], x[2] - 16); };
     r.open["top"] = sheet({0, 0, 16}, {12, 0, 0}, {0, 12, 0}, 4);
     r.open["bottom"] = sheet({0, 0, 0}, {0, 12, 0}, {12, 0, 0}, 4);
     r.otherPatches = sidesXY;
@@ -131,9 +134,8 @@ reversal obliqueScene()
     r.low = {0, 0, 0}, r.high = {12, 12, 22};
     const auto column = [](const vector& x) { return x[0] > 0 && x[0] < 12 && x[1] > 0 && x[1] < 12; };
     const scalar c = 1 / std::sqrt(1.25);
-    const auto depth = [=](const vector& x) { return (x[2] - 16 - 0.5 * x[0]) * c; };
-    r.zone = [=](const vector& x) { return column(x) && x[2] > 0 && depth(x) < 0; };
-    r.strip = [=](const vector& x) { return column(x) && x[2] > -1.6 && depth(x) < 1.5; };
+    r.column = column;
+    r.depth = [=](const vector& x) { return std::max(-x[2], (x[2] - 16 - 0.5 * x[0]) * c); };
     r.open["top"] = sheet({0, 0, 16}, {12, 0, 6}, {0, 12, 0}, 4);
     r.open["bottom"] = sheet({0, 0, 0}, {0, 12, 0}, {12, 0, 0}, 4);
     r.otherPatches =
@@ -154,8 +156,8 @@ reversal domeScene()
         const scalar rho = std::hypot(x[0], x[1]);
         return x[2] < 8 ? rho - R : std::hypot(rho, x[2] - 8) - R;
     };
-    r.zone = [=](const vector& x) { return quarter(x) && x[2] > 0 && depth(x) < 0; };
-    r.strip = [=](const vector& x) { return quarter(x) && x[2] > -1.6 && depth(x) < 1.5; };
+    r.column = quarter;
+    r.depth = [=](const vector& x) { return std::max(-x[2], depth(x)); };
     const auto outward = [](const vector& x) { return vector(x[0], x[1], std::max(0.0, x[2] - 8)); };
     triSurface dome = parametric(
         [=](scalar s, scalar t)
@@ -184,12 +186,11 @@ reversal cylinderScene()
     const scalar R = 9, H = 16;
     r.low = {-R, -R, 0}, r.high = {R, R, H};
     const auto rho = [](const vector& x) { return std::hypot(x[0], x[1]); };
-    r.zone = [=](const vector& x) { return rho(x) < R && x[2] > 0 && x[2] < H; };
-    r.strip = [=](const vector& x)
+    r.column = [](const vector&) { return true; };
+    r.depth = [=](const vector& x)
     {
-        const scalar a = std::max(0.0, rho(x) - R);
-        const scalar b = std::max({0.0, -x[2], x[2] - H});
-        return std::hypot(a, b) < 1.5;
+        const scalar a = rho(x) - R, b = std::max(-x[2], x[2] - H);
+        return std::max(a, b) < 0 ? std::max(a, b) : std::hypot(std::max(a, 0.0), std::max(b, 0.0));
     };
     const auto outward = [=](const vector& x) { return vector(x[0], x[1], 0); };
     triSurface s = parametric(
