@@ -227,7 +227,7 @@ void check(const outcome& o)
 
 TEST_CASE("ten reversals through flat faces")
 {
-    check(tenReversals(flatScene(), {0, 0, 5}));
+    check(tenReversals(flatScene(), {0, 0, 3}));
 }
 
 TEST_CASE("ten reversals through an oblique face between symmetry planes")
