@@ -26,9 +26,9 @@ USES_functionObjects := coupling
 # Programs: one folder each, all its *.C.  They see every library; packages beyond the common ones:
 APPS := $(sort $(dir $(wildcard applications/solvers/*/*.C applications/utilities/*/*/*.C)))
 PKG_generateParticles := -lgmsh
-PKG_checkParticles    :=
 
-# Tests: one doctest program per folder of tests/, seeing the library of the same name and below.
+# Tests: one doctest program per folder of tests/, seeing the library of the same name and below; one
+# named after a program sees every library and all of the program but its main.
 TESTS := $(sort $(notdir $(patsubst %/,%,$(dir $(wildcard tests/*/*.C)))))
 PKG_TEST_generateParticles := -lgmsh
 
@@ -89,8 +89,8 @@ $(foreach a,$(patsubst %/,%,$(APPS)),$(eval $(call PROGRAM,$(a))))
 
 define TEST
 OBJ_test_$(1) := $$(patsubst %.C,$(B)/%.o,$$(wildcard tests/$(1)/*.C))
-$$(OBJ_test_$(1)): INC = $$(call quoted,$$(if $$(filter $(1),$$(LIBS)),$$(call ordered,$(1)),$$(LIBS))) -iquote tests
-$(B)/testPrograms/$(1): $$(OBJ_test_$(1)) $$(if $$(filter $(1),$$(LIBS)),$$(call archivesOf,$(1)),$$(call archives))
+$$(OBJ_test_$(1)): INC = $$(call quoted,$$(if $$(filter $(1),$$(LIBS)),$$(call ordered,$(1)),$$(LIBS))) -iquote tests $$(addprefix -iquote ,$$(filter %/$(1)/,$$(APPS)))
+$(B)/testPrograms/$(1): $$(OBJ_test_$(1)) $$(filter-out %/$(1).o,$$(OBJ_app_$(1))) $$(if $$(filter $(1),$$(LIBS)),$$(call archivesOf,$(1)),$$(call archives))
 	@mkdir -p $$(@D); echo "LD   $$@"
 	@$$(CXX) $$(FLAGS_$$(OPT)) $$^ -o $$@ $$(PKG_TEST_$(1)) $$(LDLIBS)
 OBJECTS += $$(OBJ_test_$(1))

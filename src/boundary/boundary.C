@@ -181,6 +181,11 @@ bool boundary::fixesPressure() const
     return !content_->openFaces.empty();
 }
 
+bool boundary::inside(const vector& x) const
+{
+    return content_->group.beyond(x) <= 0 && content_->walls.inside(x);
+}
+
 bool boundary::nearOpen(const vector& x) const
 {
     for (const openFace& face : content_->openFaces)

@@ -92,6 +92,16 @@ bool wallSet::clear(const vector& x, scalar distance) const
     return true;
 }
 
+bool wallSet::inside(const vector& x) const
+{
+    for (const body& b : bodies_)
+    {
+        const surfaceFoot f = b.surface->find(x - offset(b));
+        if (f.found && f.aside == 0 && f.depth > 0) return false;
+    }
+    return true;
+}
+
 namespace
 {
 

@@ -91,6 +91,7 @@ public:
     void assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const override;
     scalar maxLinkForce(const List<vec4>& x) const override;
     linkStrain strain(const List<vec4>& x) const override;
+    List<label> linkCounts() const override;
     word description() const override { return summary_; }
 
 private:
@@ -215,6 +216,13 @@ linkStrain springNetwork::strain(const List<vec4>& x) const
 {
     return {-largest(x, [](scalar d, scalar d0, scalar) { return 1 - d / d0; }),
             largest(x, [](scalar d, scalar d0, scalar) { return d / d0 - 1; })};
+}
+
+List<label> springNetwork::linkCounts() const
+{
+    List<label> count;
+    for (label i = 0; i < n(); ++i) count.push_back(label(links_.start[i + 1] - links_.start[i]));
+    return count;
 }
 
 }  // namespace

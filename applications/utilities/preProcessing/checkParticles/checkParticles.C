@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Are the particles of a case fit to run with?  Counts, spacing, neighbours, kernel sums, layers and
+// links of solids, memory and time per step.  Status 1 if a check fails; warnings do not count.
+#include "argList.H"
+#include "checks.H"
+#include "cloudIO.H"
+
+using namespace ispf;
+
+namespace
+{
+
+int run(const argList& args)
+{
+    args.printHeader();
+    info() << "Create time\n";
+    Time time(args.caseFolder());
+    if (args.found("time")) time.rewind(args.number("time"), 0);
+    findings found;
+    {
+        particleCloud cloud;
+        readCloud(time, cloud);
+        checkPositions(cloud, time.value(), found);
+    }
+    if (found.nFailed() > 0) return found.close();  // the rest could not be relied upon
+
+    fsiCase c(time);
+    c.updateNeighbours(time.value(), time.value() + time.deltaT());
+    checkSides(c, found);
+    checkSpacing(c, found);
+    checkNeighbours(c, found);
+    checkKernelSums(c, found);
+    checkSolids(c, found);
+    const label nSteps = label(args.numberOr("steps", 3));
+    if (nSteps > 0) timeSteps(c, nSteps, found);
+    return found.close();
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    return runMain([&] {
+        argList args("checkParticles", "Reports on the particles of a case and checks them.");
+        args.addOption("time", "value", "time to look at (default: where a run would start)");
+        args.addOption("steps", "n",
+                       "steps to make for the prediction of time (default 3; 0: none)");
+        return args.parse(argc, argv) ? run(args) : 0;
+    });
+}
