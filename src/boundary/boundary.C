@@ -3,6 +3,7 @@
 #include "openFace.H"
 #include "siteFile.H"
 #include "wallGuard.H"
+#include "wallMirror.H"
 #include "wallVisibility.H"
 
 #include <algorithm>
@@ -16,6 +17,8 @@ struct boundary::content
     wallSet walls;
     wallGuard guard;
     wallVisibility visibility;
+    wallMirror mirror;
+    List<vector> facing;  // per ghost, see wallVisibility
     List<openFace> openFaces;
     List<label> openIndex;  // of an open face in the balance
     List<patchBalance> balance;
@@ -83,6 +86,7 @@ boundary::boundary(const word& caseFolder, const dictionary& patches, const part
     c.walls.read(caseFolder, patches, c.group, cloud, support);
     c.walls.setStep(0, 1);
     c.visibility.find(c.walls, support);
+    c.mirror.find(c.walls, support);
     c.addOpenFaces(caseFolder, patches, cloud);
 }
 
@@ -104,12 +108,14 @@ void boundary::updateGhosts(particleCloud& cloud) const
 {
     cloud.clearGhosts();
     content_->walls.addRigid(cloud);
-    content_->group.addImages(cloud);
+    content_->facing.assign(cloud.nGhosts(), vector::Zero());
+    content_->mirror.addImages(cloud, content_->walls, content_->facing);
+    content_->group.addImages(cloud, content_->facing);
 }
 
 neighbourList::visibility boundary::visible(const particleCloud& cloud) const
 {
-    return content_->visibility.test(cloud, content_->walls);
+    return content_->visibility.test(cloud, content_->walls, content_->facing);
 }
 
 // Fluid that stepped over a symmetry plane is reflected, over a cyclic side carried to the other

@@ -253,7 +253,7 @@ struct imageMaker
 
 }  // namespace
 
-void imageGroup::addImages(particleCloud& cloud) const
+void imageGroup::addImages(particleCloud& cloud, List<vector>& facing) const
 {
     if (maps_.empty()) return;
     List<imageMaker> makers;
@@ -274,6 +274,8 @@ void imageGroup::addImages(particleCloud& cloud) const
             if (!free) continue;
             taken.push_back(at);
             maker.add(e, at);
+            facing.push_back(e < cloud.n() ? vector(vector::Zero())
+                                           : vector(maker.map.R * facing[e - cloud.n()]));
         }
     }
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 namespace ispf
 {
@@ -77,45 +76,16 @@ struct raster
     }
 };
 
-// Which edges (bits 0 to 2, from corner k to k + 1) and corners (bits 3 to 5) of a triangle lie on
-// the surface's rim
-List<std::uint8_t> rimBits(const triSurface& s)
-{
-    std::set<std::pair<label, label>> half;
-    for (const auto& t : s.triangles)
-        for (int k = 0; k < 3; ++k) half.insert({t[k], t[(k + 1) % 3]});
-    List<char> node(s.nodes.size(), 0);
-    List<std::uint8_t> bits(s.size(), 0);
-    for (label t = 0; t < s.size(); ++t)
-        for (int k = 0; k < 3; ++k)
-        {
-            const label a = s.triangles[t][k], b = s.triangles[t][(k + 1) % 3];
-            if (half.count({b, a})) continue;
-            bits[t] |= std::uint8_t(1 << k), node[a] = node[b] = 1;
-        }
-    for (label t = 0; t < s.size(); ++t)
-        for (int k = 0; k < 3; ++k)
-            if (node[s.triangles[t][k]]) bits[t] |= std::uint8_t(8 << k);
-    return bits;
-}
-
-scalar distanceToEdge(const vector& p, const vector& a, const vector& b)
-{
-    const vector e = b - a;
-    const scalar s = std::clamp((p - a).dot(e) / std::max(e.squaredNorm(), 1e-300), 0.0, 1.0);
-    return (p - a - s * e).norm();
-}
-
 class triangulatedSurface : public patchSurface
 {
 public:
-    triangulatedSurface(triSurface surface, const imageGroup& group, scalar reach) : reach_(reach)
+    triangulatedSurface(triSurface surface, const imageGroup& group, scalar reach, bool twoSided)
+        : reach_(reach), twoSided_(twoSided)
     {
         area_.assign(surface.patchNames.size(), vector::Zero());
         for (label t = 0; t < surface.size(); ++t) area_[surface.patch[t]] += surface.areaVector(t);
         surface.weld(1e-4 * reach);
         search_ = surfaceSearch(continued(std::move(surface), group, reach));
-        rim_ = rimBits(search_.surface());
         raster_.build(search_, reach);
     }
 
@@ -125,8 +95,9 @@ public:
         if (raster_.far(x)) return f;
         const surfacePoint p = search_.nearest(x, reach_);
         if (!p.found) return f;
+        if (twoSided_) return onSheet(x, p);
         f.found = true, f.patch = search_.patch(p), f.foot = p.point, f.normal = p.normal;
-        if (onRim(p))
+        if (p.rim)
         {
             f.depth = (x - p.point).dot(p.normal);
             f.foot = x - f.depth * p.normal;
@@ -147,42 +118,44 @@ public:
         if (!hit.found) return f;
         f.found = true, f.foot = hit.point, f.patch = search_.surface().patch[hit.triangle];
         f.normal = search_.surface().normal(hit.triangle);
+        if (twoSided_ && f.normal.dot(b - a) < 0) f.normal = -f.normal;
         return f;
     }
 
-    vector areaVector(label patch) const override { return area_[patch]; }
+    vector areaVector(label patch) const override
+    {
+        return twoSided_ ? vector(vector::Zero()) : area_[patch];
+    }
     const triSurface* mesh() const override { return &search_.surface(); }
     bool surelyFar(const vector& x) const override { return raster_.far(x); }
 
 private:
-    bool onRim(const surfacePoint& p) const
+    // Seen from x a sheet's normal points away
+    surfaceFoot onSheet(const vector& x, const surfacePoint& p) const
     {
-        const std::uint8_t bits = rim_[p.triangle];
-        if (bits == 0 || p.feature == surfaceFeature::facet) return false;
-        const triSurface& s = search_.surface();
-        const scalar tiny = 1e-9 * reach_;
-        for (int k = 0; k < 3; ++k)
-        {
-            const vector &a = s.corner(p.triangle, k), &b = s.corner(p.triangle, (k + 1) % 3);
-            if (bits >> k & 1 && distanceToEdge(p.point, a, b) < tiny) return true;
-            if (bits >> (3 + k) & 1 && (p.point - a).norm() < tiny) return true;
-        }
-        return false;
+        surfaceFoot f;
+        f.found = true, f.patch = search_.patch(p), f.normal = p.normal;
+        if (!p.rim && p.distance > 1e-6 * reach_) f.normal = (p.point - x) / p.distance;
+        if ((x - p.point).dot(f.normal) > 0) f.normal = -f.normal;
+        f.depth = (x - p.point).dot(f.normal);
+        f.foot = x - f.depth * f.normal;
+        if (p.rim) f.aside = (f.foot - p.point).norm();
+        return f;
     }
 
     scalar reach_;
     surfaceSearch search_;
     raster raster_;
-    List<std::uint8_t> rim_;
+    bool twoSided_;
     List<vector> area_;
 };
 
 }  // namespace
 
 std::unique_ptr<patchSurface> patchSurface::triangles(triSurface surface, const imageGroup& group,
-                                                      scalar reach)
+                                                      scalar reach, bool twoSided)
 {
-    return std::make_unique<triangulatedSurface>(std::move(surface), group, reach);
+    return std::make_unique<triangulatedSurface>(std::move(surface), group, reach, twoSided);
 }
 
 triSurface readPatch(const word& caseFolder, const word& patch, const dictionary& dict)

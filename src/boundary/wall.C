@@ -42,7 +42,11 @@ wall wall::New(const word& name, const dictionary& dict, const word& caseFolder)
         kind == "mirror" ? wallRepresentation::mirror : wallRepresentation::particles;
     w.plane = dict.chooseOrDefault("surface", {"triSurface", "plane"}, "triSurface") == "plane";
     w.motion = wallMotion(dict, caseFolder);
+    w.twoSided = dict.getOrDefault("twoSided", false);
     if (!w.plane) return w;
+    if (w.twoSided)
+        dict.fail("twoSided",
+                  "a plane has no end and fluid on one side only; use surface triSurface");
     w.point = dict.get<vector>("point"), w.normal = dict.get<vector>("normal");
     if (w.normal.norm() == 0) dict.fail("normal", "normal must not be zero");
     w.normal.normalize();

@@ -33,8 +33,11 @@ void wallSet::makeBodies(const word& caseFolder, const dictionary& patches, cons
             continue;
         }
         triSurface surface = readPatch(caseFolder, own.name, patches.subDict(own.name));
-        if (own.motion.moves())
-            bodies_.push_back({patchSurface::triangles(std::move(surface), group, reach), {w}});
+        if (own.motion.moves() || own.twoSided)
+            bodies_.push_back(
+                {patchSurface::triangles(std::move(surface), group, reach, own.twoSided),
+                 {w},
+                 own.twoSided});
         else still.append(surface), stillWalls.push_back(w);
     }
     if (!stillWalls.empty())
@@ -44,7 +47,7 @@ void wallSet::makeBodies(const word& caseFolder, const dictionary& patches, cons
 void wallSet::readRigid(const word& caseFolder, const dictionary& patches)
 {
     const auto wanted = [](const wall& w) {
-        return w.representation == wallRepresentation::particles && !w.plane;
+        return w.representation == wallRepresentation::particles && !w.plane && !w.twoSided;
     };
     if (std::none_of(walls_.begin(), walls_.end(), wanted)) return;
     const siteFile file(caseFolder + "/constant/wallParticles.hdf");
@@ -87,6 +90,7 @@ bool wallSet::clear(const vector& x, scalar distance) const
     for (const body& b : bodies_)
     {
         const surfaceFoot f = b.surface->find(x - offset(b));
+        if (b.twoSided && f.aside > 0) continue;
         if (f.found && f.depth > -distance) return false;
     }
     return true;

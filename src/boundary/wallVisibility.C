@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ispf
 {
@@ -45,12 +46,14 @@ struct wallView
     List<label> slot;  // -1: far
     List<place> places;
 
-    wallView(const particleCloud& c, const patchSurface& s, const vector& o, scalar m)
+    wallView(const particleCloud& c, const patchSurface& s, const vector& o, scalar m,
+             const List<vector>& facing)
         : cloud(c), surface(s), offset(o), margin(m), slot(c.nAll(), -1)
     {
         List<label> near;
         for (label i = 0; i < c.nAll(); ++i)
-            if (c.phase[i] == phaseType::fluid && !s.surelyFar(c.x[i].xyz() - o))
+            if (c.phase[i] == phaseType::fluid && !s.surelyFar(c.x[i].xyz() - o) &&
+                (i < c.n() || facing[i - c.n()].isZero(0)))
                 slot[i] = label(near.size()), near.push_back(i);
         places.resize(near.size());
         parallelFor(
@@ -81,6 +84,33 @@ struct wallView
     }
 };
 
+// Mirror images
+struct imageView
+{
+    const particleCloud& cloud;
+    const wallSet& walls;
+    const List<vector>& facing;
+    static constexpr scalar aligned = 0.5;  // corners of three walls: 1/sqrt(3)
+
+    bool sees(label i, label g) const
+    {
+        const vector& direction = facing[g - cloud.n()];
+        if (direction.isZero(0) || cloud.pFixed[i]) return true;
+        const vector a = cloud.x[i].xyz(), b = cloud.x[g].xyz();
+        scalar nearest = std::numeric_limits<scalar>::max();
+        bool same = false;
+        for (const wallSet::body& body : walls.bodies())
+        {
+            const vector offset = walls.offset(body);
+            const surfaceFoot f = body.surface->firstCrossing(a - offset, b - offset);
+            if (!f.found) continue;
+            const scalar way = (f.foot + offset - a).squaredNorm();
+            if (way < nearest) nearest = way, same = f.normal.dot(direction) > aligned;
+        }
+        return same;
+    }
+};
+
 }  // namespace
 
 void wallVisibility::find(const wallSet& walls, scalar support)
@@ -88,30 +118,38 @@ void wallVisibility::find(const wallSet& walls, scalar support)
     margin_ = 0.1 * support;
     for (size_t b = 0; b < walls.bodies().size(); ++b)
     {
-        const triSurface* mesh = walls.bodies()[b].surface->mesh();
+        const wallSet::body& body = walls.bodies()[b];
+        const triSurface* mesh = body.surface->mesh();
         if (!mesh) continue;
         const surfaceSearch search(*mesh);
         List<char> thin(mesh->size(), 0);
         parallelFor(
             mesh->size(),
             [&](label begin, label end) {
-                for (label t = begin; t < end; ++t) thin[t] = isThin(search, t, support);
+                for (label t = begin; t < end; ++t)
+                    thin[t] = body.twoSided || isThin(search, t, support);
             },
             64);
         triSurface part = mesh->subset([&](label t) { return thin[t] != 0; });
         if (part.empty()) continue;
-        parts_.push_back({b, patchSurface::triangles(std::move(part), imageGroup(), support)});
+        parts_.push_back(
+            {b, patchSurface::triangles(std::move(part), imageGroup(), support, body.twoSided)});
     }
 }
 
-neighbourList::visibility wallVisibility::test(const particleCloud& cloud,
-                                               const wallSet& walls) const
+neighbourList::visibility wallVisibility::test(const particleCloud& cloud, const wallSet& walls,
+                                               const List<vector>& facing) const
 {
-    if (parts_.empty()) return nullptr;
+    const bool images = std::any_of(facing.begin(), facing.end(),
+                                    [](const vector& direction) { return !direction.isZero(0); });
+    if (parts_.empty() && !images) return nullptr;
     const auto views = std::make_shared<List<wallView>>();
     for (const thinPart& p : parts_)
-        views->emplace_back(cloud, *p.surface, walls.offset(walls.bodies()[p.body]), margin_);
-    return [views](label i, label j) {
+        views->emplace_back(cloud, *p.surface, walls.offset(walls.bodies()[p.body]), margin_,
+                            facing);
+    const imageView seen{cloud, walls, facing};
+    return [views, seen](label i, label j) {
+        if (j >= seen.cloud.n() && !seen.sees(i, j)) return false;
         for (const wallView& view : *views)
             if (view.parts(i, j)) return false;
         return true;

@@ -101,7 +101,7 @@ void particleCloud::addImage(label source, label rule, const vector& position, c
 {
     x.push_back(vec4::from(position)), Up.push_back(vec4{});
     phase.push_back(phase[source]);
-    source_.push_back(source), rule_.push_back(std::uint16_t(rule)), offset_.push_back(b);
+    source_.push_back(source), rule_.push_back(rule), offset_.push_back(b);
 }
 
 void particleCloud::addRigid(const vector& position, const vector& velocity)

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wallMirror.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+constexpr scalar parallel =
+    0.75;  // cosine between normals of one part, and of no corner: 41 degrees
+
+// Part of each triangle: connected through edges that are not sharp
+List<label> smoothParts(const triSurface& s, bool twoSided)
+{
+    std::map<std::pair<label, label>, List<label>> users;
+    for (label t = 0; t < s.size(); ++t)
+        for (int k = 0; k < 3; ++k)
+            users[std::minmax(s.triangles[t][k], s.triangles[t][(k + 1) % 3])].push_back(t);
+    List<label> part(s.size(), -1);
+    label nParts = 0;
+    for (label seed = 0; seed < s.size(); ++seed)
+    {
+        if (part[seed] >= 0) continue;
+        List<label> front = {seed};
+        part[seed] = nParts;
+        while (!front.empty())
+        {
+            const label t = front.back();
+            front.pop_back();
+            for (int k = 0; k < 3; ++k)
+                for (const label u :
+                     users[std::minmax(s.triangles[t][k], s.triangles[t][(k + 1) % 3])])
+                {
+                    const scalar cosine = s.normal(t).dot(s.normal(u));
+                    if (part[u] >= 0 || (twoSided ? std::abs(cosine) : cosine) < parallel) continue;
+                    part[u] = nParts, front.push_back(u);
+                }
+        }
+        ++nParts;
+    }
+    return part;
+}
+
+// Shortest way to all planes at once, and the projector onto the directions it can have
+struct wayToPlanes
+{
+    tensor P = tensor::Zero();
+    vector s = vector::Zero();
+
+    void add(const vector& normal, scalar distance)
+    {
+        vector e = normal - P * normal;
+        const scalar length = e.norm();
+        e /= length;
+        s += (distance - normal.dot(s)) / length * e;
+        P += e * e.transpose();
+    }
+};
+
+}  // namespace
+
+void wallMirror::find(const wallSet& walls, scalar support)
+{
+    support_ = support;
+    for (size_t b = 0; b < walls.bodies().size(); ++b)
+    {
+        const wallSet::body& body = walls.bodies()[b];
+        const auto mirrors = [&](label patch) {
+            const wallRepresentation r = walls.walls()[body.walls[patch]].representation;
+            return r == wallRepresentation::mirror;
+        };
+        const bool rigid = body.twoSided && !mirrors(0);
+        const triSurface* mesh = body.surface->mesh();
+        if (!mesh)
+        {
+            if (mirrors(0)) parts_.push_back({b, nullptr, false});
+            continue;
+        }
+        const triSurface made =
+            mesh->subset([&](label t) { return mirrors(mesh->patch[t]) || body.twoSided; });
+        if (made.empty()) continue;
+        const List<label> number = smoothParts(made, body.twoSided);
+        for (label p = 0; p <= *std::max_element(number.begin(), number.end()); ++p)
+            parts_.push_back(
+                {b,
+                 patchSurface::triangles(made.subset([&](label t) { return number[t] == p; }),
+                                         imageGroup(), support, body.twoSided),
+                 rigid});
+    }
+}
+
+List<wallMirror::foot> wallMirror::feet(const particleCloud& cloud, const wallSet& walls,
+                                        label i) const
+{
+    List<foot> found;
+    for (label p = 0; p < label(parts_.size()); ++p)
+    {
+        const wallSet::body& body = walls.bodies()[parts_[p].body];
+        const patchSurface& surface = parts_[p].own ? *parts_[p].own : *body.surface;
+        const vector x = cloud.x[i].xyz() - walls.offset(body);
+        if (surface.surelyFar(x)) continue;
+        const surfaceFoot f = surface.find(x);
+        const bool beside = f.aside > 0 && !cloud.pFixed[i];
+        if (!f.found || f.depth >= 0 || f.depth < -support_) continue;
+        // past a rim fluid is seen, or the image of what lies beside it, never both: on a sheet only,
+        // as through the edge of a thick wall fluid sees fluid
+        if (beside && !(body.twoSided && f.aside < support_)) continue;
+        found.push_back(
+            {p, f.normal, walls.walls()[body.walls[f.patch]].velocity, -f.depth, beside});
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const foot& a, const foot& b) { return a.distance < b.distance; });
+    if (found.size() > 3) found.resize(3);  // more walls do not meet in a corner
+    return found;
+}
+
+class wallMirror::imageAdder
+{
+public:
+    imageAdder(const wallMirror& mirror, particleCloud& cloud, List<vector>& facing)
+        : mirror_(mirror), cloud_(cloud), facing_(facing)
+    {
+    }
+
+    void add(label i, const List<foot>& feet)
+    {
+        for (unsigned group = 1; group < 1u << feet.size(); ++group)
+        {
+            List<foot> members;
+            for (size_t k = 0; k < feet.size(); ++k)
+                if (group >> k & 1) members.push_back(feet[k]);
+            if (cornered(members)) addImage(i, members);
+        }
+    }
+
+private:
+    static bool cornered(const List<foot>& members)
+    {
+        for (const foot& a : members)
+            for (const foot& b : members)
+                if (&a < &b &&
+                    (a.beside || b.beside || std::abs(a.normal.dot(b.normal)) > parallel))
+                    return false;
+        return true;
+    }
+
+    void addImage(label i, const List<foot>& members)
+    {
+        wayToPlanes way;
+        vector direction = vector::Zero(), velocity = vector::Zero();
+        bool rigid = true;
+        for (const foot& f : members)
+        {
+            way.add(f.normal, f.distance);
+            direction += f.normal, velocity += f.wallVelocity / scalar(members.size());
+            rigid = rigid && mirror_.parts_[f.part].rigid;
+        }
+        if (way.s.norm() > mirror_.support_) return;
+        const vector at = cloud_.x[i].xyz() + 2 * way.s;
+        const scalar sign = members.size() % 2 ? -1 : 1;
+        if (rigid) cloud_.addRigid(at, velocity);
+        else
+            cloud_.addImage(i, ruleFor(members, way.P, sign), at,
+                            vec4::from((1 - sign) * velocity));
+        facing_.push_back(cloud_.pFixed[i] ? vector(vector::Zero()) : direction.normalized());
+    }
+
+    // One rule serves a whole flat part
+    label ruleFor(const List<foot>& members, const tensor& P, scalar sign)
+    {
+        List<label> parts;
+        for (const foot& f : members) parts.push_back(f.part);
+        auto& [known, rule] = last_.try_emplace(parts, tensor::Zero(), -1).first->second;
+        if ((known - P).cwiseAbs().maxCoeff() < 1e-9) return rule;
+        const Eigen::Matrix4d M = Eigen::Vector4d(sign, sign, sign, 1).asDiagonal();
+        known = P, rule = cloud_.addRule(M, tensor::Identity() - 2 * P);
+        return rule;
+    }
+
+    const wallMirror& mirror_;
+    particleCloud& cloud_;
+    List<vector>& facing_;
+    std::map<List<label>, std::pair<tensor, label>> last_;
+};
+
+void wallMirror::addImages(particleCloud& cloud, const wallSet& walls, List<vector>& facing) const
+{
+    if (parts_.empty()) return;
+    List<List<foot>> found(cloud.n());
+    parallelFor(cloud.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i) found[i] = feet(cloud, walls, i);
+    });
+    imageAdder adder(*this, cloud, facing);
+    for (label i = 0; i < cloud.n(); ++i) adder.add(i, found[i]);
+}
+
+}  // namespace ispf
