@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Both kinds of wall where there is no equivalent problem without one: operators before a mirrored
+// circle, steady shear between plates and steady flow in a pipe must converge with the spacing.
+#include "boundary/scene.H"
+#include "caseOnDisk.H"
+#include "sphc.H"
+
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace scene;
+
+namespace
+{
+
+// Rings of particles with spacing dx, r = (k + 1/2) dx from `from` to `to`, in the plane z
+List<vector> rings(scalar dx, scalar from, scalar to, scalar z = 0)
+{
+    List<vector> points;
+    const int first = int(std::lround(from / dx)), last = int(std::lround(to / dx));
+    for (int k = first; k < last; ++k)
+    {
+        const scalar r = (k + 0.5) * dx;
+        const int n = std::max(3, int(std::lround(2 * M_PI * r / dx)));
+        for (int j = 0; j < n; ++j)
+        {
+            const scalar a = 2 * M_PI * (j + 0.37 * k) / n;
+            points.emplace_back(r * std::cos(a), r * std::sin(a), z);
+        }
+    }
+    return points;
+}
+
+// A tube about the z-axis, normals away from it (outward) or towards it
+triSurface tube(scalar radius, scalar dx, scalar z0, scalar z1, bool outward)
+{
+    return parametric(
+        [=](scalar s, scalar t) {
+            return vector(radius * std::cos(2 * M_PI * s), radius * std::sin(2 * M_PI * s),
+                          z0 + t * (z1 - z0));
+        },
+        int(std::lround(4 * M_PI * radius / dx)), 2,
+        [=](const vector& x) -> vector { return (outward ? 1 : -1) * vector(x[0], x[1], 0); });
+}
+
+struct errors
+{
+    scalar div, grad;
+};
+
+// Fluid inside (sign 1) or outside (-1) of a mirrored circle of radius 1 with a no-slip flow
+errors beforeCircle(scalar dx, bool inside)
+{
+    folder files;
+    files.surface("wall", tube(1, dx, -dx, dx, inside));
+    const List<vector> points = inside ? rings(dx, 0, 1) : rings(dx, 1, 2);
+    particleCloud cloud = fluid(points, dx, 2);
+    boundary walls(files.path, dictionary::fromString("wall { type wall; representation mirror; }"),
+                   cloud, 2.6 * dx);
+    walls.setStep(0, 1);
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        const vector x = cloud.x[i].xyz();
+        const scalar a = 1 - x.squaredNorm();
+        cloud.Up[i] = vec4::from(a * vector(-x[1], x[0], 0) + a * a * x, 3 + a * a);
+    }
+    walls.updateGhosts(cloud);
+    cloud.fillGhosts(cloud.Up, false);
+    neighbourList list;
+    list.build(cloud, *smoothingKernel::New("WendlandC2", 2, 1.3 * dx), walls.visible(cloud));
+    kernelCorrection B;
+    B.build(cloud, list);
+    const stencil s{cloud, list, B};
+    const List<scalar> div = sphc::div(s, cloud.Up, divergenceScheme::corrected);
+    const List<vec4> grad = sphc::grad(s, cloud.Up, gradientScheme::correctedDifference);
+    errors e = {0, 0};
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        const vector x = cloud.x[i].xyz();
+        const scalar r2 = x.squaredNorm(), a = 1 - r2;
+        if (!inside && r2 > 2.25) continue;
+        e.div = std::max(e.div, std::abs(div[i] - (2 * a * a - 4 * a * r2)));
+        e.grad = std::max(e.grad, (grad[i].xyz() + 4 * a * x).norm());
+    }
+    return e;
+}
+
+constexpr scalar H = 1e-3, nu = 1e-6, force = 1e-4;
+
+// A case of a few particles across H, run until the flow is steady
+class steadyFlow
+{
+public:
+    steadyFlow(const word& name, const word& boundary, const word& acceleration) : files(name)
+    {
+        files.boundary = boundary, files.g = acceleration;
+        files.properties = "rho 1000; nu 1e-6;";
+        files.schemes = "kernel WendlandC2; hByDx 1.3;";
+        files.control =
+            "startTime 0; endTime 100; deltaT 1; writeControl timeStep; writeInterval 1e6;";
+    }
+    caseOnDisk files;
+
+    // Largest error of the speed, by the largest speed
+    scalar error(const std::function<scalar(const vector&)>& exact) const
+    {
+        capturedLog log;
+        Time time(files.path());
+        fsiCase c(time);
+        const auto scheme = couplingScheme::New(c);
+        runSteps(c, *scheme, 0.5, 8);
+        scalar worst = 0, top = 0;
+        for (label i = 0; i < c.cloud.n(); ++i)
+        {
+            const scalar u = exact(c.cloud.x[i].xyz());
+            worst = std::max(worst, std::abs(c.cloud.Up[i].xyz().norm() - u));
+            top = std::max(top, u);
+        }
+        return worst / top;
+    }
+};
+
+const word cyclicIn(const word& direction, scalar length)
+{
+    return "around { type cyclic; point (0 0 0); separation (" +
+           (direction == "x" ? str(length, 17) + " 0 0" : "0 0 " + str(length, 17)) + "); }";
+}
+
+// The lid of a plane channel moves, the bottom stands still
+scalar shearError(const word& kind, int n)
+{
+    const scalar dx = H / n;
+    const word wall = "type wall; surface plane; representation " + kind + ";";
+    steadyFlow flow("shear" + kind,
+                    "bottom { " + wall + " point (0 0 0); normal (0 -1 0); } top { " + wall +
+                        " point (0 " + str(H, 17) + " 0); normal (0 1 0); velocity (1e-5 0 0); }" +
+                        cyclicIn("x", 8 * dx),
+                    "");
+    flow.files.fill(8, n, dx);
+    flow.files.write();
+    return flow.error([](const vector& x) { return 1e-5 * x[1] / H; });
+}
+
+// A pipe of radius H with a body force along it
+scalar pipeError(const word& kind, int n)
+{
+    const scalar dx = H / n, length = 4 * dx;
+    steadyFlow flow("pipe" + kind,
+                    "wall { type wall; representation " + kind + "; }" + cyclicIn("z", length),
+                    "(0 0 " + str(force) + ")");
+    flow.files.fill(1, 1, dx);
+    particleTable& t = flow.files.particles();
+    particleTable rigid;
+    t.x.clear();
+    for (int k = 0; k < 4; ++k)
+    {
+        const scalar z = (k + 0.5) * dx;
+        for (const vector& x : rings(dx, 0, H, z)) t.x.push_back(x);
+        for (const vector& x : rings(dx, H, H + 3 * dx, z)) rigid.x.push_back(x);
+    }
+    t.vectors["U"].assign(t.x.size(), vector::Zero()), t.scalars["p"].assign(t.x.size(), 0);
+    t.integers["zone"].assign(t.x.size(), 0), t.integers["id"].clear();
+    for (size_t k = 0; k < t.x.size(); ++k) t.integers["id"].push_back(globalId(k));
+    t.setAttribute("nDims", 3);
+    flow.files.write();
+    std::filesystem::create_directories(flow.files.path() + "/constant/triSurface");
+    writeSTL(tube(H, dx, 0, length, true), flow.files.path() + "/constant/triSurface/wall.stl");
+    rigid.integers["patch"].assign(rigid.x.size(), 0);
+    rigid.attributes["patches"] = "wall";
+    writeParticles(rigid, flow.files.path() + "/constant/wallParticles.hdf");
+    return flow.error(
+        [](const vector& x) { return force / (4 * nu) * (H * H - x[0] * x[0] - x[1] * x[1]); });
+}
+
+}  // namespace
+
+TEST_CASE("operators before a mirrored circle converge, on its inside and its outside")
+{
+    for (const bool inside : {true, false})
+    {
+        const errors coarse = beforeCircle(0.1, inside), fine = beforeCircle(0.05, inside);
+        CHECK(coarse.div < 0.5);
+        CHECK(fine.div < 0.65 * coarse.div);
+        CHECK(fine.grad < 0.35 * coarse.grad);
+    }
+}
+
+TEST_CASE("steady shear between plates: exact with mirrors, converging with rigid particles")
+{
+    CHECK(shearError("mirror", 8) < 1e-5);
+    const scalar coarse = shearError("particles", 8);
+    CHECK(coarse < 0.005);
+    CHECK(shearError("particles", 16) < 0.75 * coarse);
+}
+
+TEST_CASE("steady flow in a pipe converges with either wall")
+{
+    for (const char* kind : {"mirror", "particles"})
+    {
+        CAPTURE(kind);
+        const scalar coarse = pipeError(kind, 4);
+        CHECK(coarse < 0.03);
+        CHECK(pipeError(kind, 8) < 0.65 * coarse);
+    }
+}
