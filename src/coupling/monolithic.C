@@ -42,7 +42,9 @@ public:
           maxIter_(dict_.getOrDefault<label>("maxIter", 150)),
           shifting_(c.solution.subOrEmptyDict("shifting"))
     {
-        if (c.structure) K_ = c.structure->tangentPattern();
+        if (!c.structure) return;
+        K_ = c.structure->tangentPattern();
+        volume_ = std::make_unique<volumeConstraint>(*c.structure);
     }
 
     stepLimit limit() const override;
@@ -65,6 +67,7 @@ private:
     label maxIter_;
     particleShifting shifting_;
 
+    std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
     List<tensor> F_;
     List<vec4> springForce_;
@@ -96,8 +99,9 @@ void monolithic::structureState()
     c_.structure->deformationGradient(c_.cloud.x, F_);
     c_.structure->force(c_.cloud.x, springForce_);
     c_.structure->assembleTangent(c_.cloud.x, tangentKind::positive, K_);
-    surface_.initialise(c_.cloud, c_.list, F_);
-    surface_.loads(c_.cloud, c_.list, *c_.kernel, F_);
+    surface_.initialise(c_.cloud, c_.list, *c_.kernel, F_);
+    volume_->setup(F_);
+    surface_.setup(c_.cloud, c_.list, *c_.kernel, F_);
 }
 
 // The last step's change goes on.  With a pressure that rises steadily this starts nearer to the
@@ -137,7 +141,8 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     for (label i = 0; i < cloud.nSolid(); ++i) q[i] = -alpha_ * (F_[i].determinant() - 1) / dt;
     for (label i = cloud.nSolid(); i < cloud.n() && !c_.source.empty(); ++i)
         q[i] = c_.source[cloud.zone[i]];
-    system_.setup(dt, surface_, c_.structure ? &K_ : nullptr);
+    if (c_.structure) system_.setup(dt, volume_.get(), &surface_, &K_);
+    else system_.setup(dt, nullptr, nullptr, nullptr);
     preconditioner_.setup();
     system_.rightHandSide(theta_, springForce_, q, b);
 

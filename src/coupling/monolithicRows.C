@@ -14,33 +14,11 @@ struct view
     const kernelCorrection& B;
     const vec4* x;
     const vec4* phi;
-    label nSolid;
-    const std::int64_t* loadStart;
-    const vec4* load;
 
     ISPF_INLINE std::int64_t first(label i) const { return list.start[i]; }
     ISPF_INLINE std::int64_t mid(label i) const { return list.mid[i]; }
     ISPF_INLINE std::int64_t last(label i) const { return list.start[i + 1]; }
 };
-
-view viewOf(const particleCloud& cloud, const neighbourList& list, const kernelCorrection& B,
-            const List<vec4>& phi, const List<std::int64_t>& loadStart, const List<vec4>& load)
-{
-    return {list, B, cloud.x.data(), phi.data(), cloud.nSolid(), loadStart.data(), load.data()};
-}
-
-// Momentum gradient of p from the same-phase sums: the fluid's is corrected, the solid's carries the load
-ISPF_INLINE vector momentumGradient(const view& v, label i, const vector& raw,
-                                    const vector& corrected)
-{
-    if (i >= v.nSolid) return corrected;
-    simd4 load = {};
-    const vec4* c = v.load + v.loadStart[i];
-    const scalar pi = v.phi[i].s[3];
-    for (std::int64_t k = v.mid(i); k < v.last(i); ++k, ++c)
-        load += (v.phi[v.list.index[k]].s[3] - pi) * c->s;
-    return raw + vector(load[0], load[1], load[2]);
-}
 
 ISPF_HOT void firstRange(const view& v, label begin, label end, vec4* gp, vec4* lap, vec4* gs)
 {
@@ -48,12 +26,10 @@ ISPF_HOT void firstRange(const view& v, label begin, label end, vec4* gp, vec4* 
     {
         pairSums sums;
         sums.add(v.list, v.x, v.phi, i, v.first(i), v.mid(i));
-        const vector raw = sums.gradient(3), corrected = v.B.same[i] * raw;
-        const scalar solidDivergence = sums.divergence(v.B.same[i]);
-        gs[i] = vec4::from(corrected, v.phi[i].s[3]);
+        const vector gradient = v.B.same[i] * sums.gradient(3);
+        gs[i] = vec4::from(gradient, v.phi[i].s[3]);
         sums.add(v.list, v.x, v.phi, i, v.mid(i), v.last(i));
-        gp[i] = vec4::from(momentumGradient(v, i, raw, corrected),
-                           i < v.nSolid ? solidDivergence : sums.divergence(v.B.all[i]));
+        gp[i] = vec4::from(gradient, sums.divergence(v.B.all[i]));
         lap[i].s = sums.lap;
     }
 }
@@ -95,9 +71,8 @@ ISPF_HOT void divergenceRange(const view& v, label begin, label end, scalar* div
     for (label i = begin; i < end; ++i)
     {
         pairSums sums;
-        const bool solid = i < v.nSolid;
-        sums.add(v.list, v.x, v.phi, i, v.first(i), solid ? v.mid(i) : v.last(i));
-        div[i] = sums.divergence(solid ? v.B.same[i] : v.B.all[i]);
+        sums.add(v.list, v.x, v.phi, i, v.first(i), v.last(i));
+        div[i] = sums.divergence(v.B.all[i]);
     }
 }
 
@@ -113,8 +88,7 @@ ISPF_HOT void gradientRange(const view& v, label begin, label end, vec4* gp)
             const label j = v.list.index[k];
             g += (v.list.F[k] * (v.phi[j].s[3] - pi)) * (xi - v.x[j].s);
         }
-        const vector raw(g[0], g[1], g[2]);
-        gp[i] = vec4::from(momentumGradient(v, i, raw, v.B.same[i] * raw));
+        gp[i] = vec4::from(v.B.same[i] * vector(g[0], g[1], g[2]));
     }
 }
 
@@ -135,9 +109,9 @@ void monolithicRows::setup(const particleCloud& cloud, const neighbourList& list
     });
 }
 
-void monolithicRows::setLoads(List<std::int64_t> start, List<vec4> c)
+void monolithicRows::setSolid(const volumeConstraint* volume, const solidSurface* surface)
 {
-    loadStart_ = std::move(start), load_ = std::move(c);
+    volume_ = volume, surface_ = surface;
 }
 
 void monolithicRows::setTau(const List<scalar>& tau)
@@ -157,20 +131,42 @@ void monolithicRows::setTau(const List<scalar>& tau)
     });
 }
 
+// Rows of the solid: what the constraint's pressure and the fluid's load make of {.., p}
+void monolithicRows::solidGradient(const List<vec4>& phi, List<vec4>& gp) const
+{
+    if (!volume_) return;
+    surface_->loads(phi, load_, stress_);
+    volume_->addStress(phi, stress_);
+    volume_->gradient().forces(stress_, force_);
+    const scalar perVolume = 1 / cloud_->volume();
+    for (label i = 0; i < cloud_->nSolid(); ++i)
+        gp[i] = vec4::from(perVolume * (load_[i].xyz() - force_[i].xyz()));
+}
+
+template <class Put>
+void monolithicRows::solidDivergence(const List<vec4>& phi, Put&& put) const
+{
+    if (!volume_) return;
+    volume_->rate(phi, rate_);
+    for (label i = 0; i < cloud_->nSolid(); ++i) put(i, rate_[i]);
+}
+
 void monolithicRows::firstPass(const List<vec4>& phi, List<vec4>& gp, List<vec4>& lap,
                                List<vec4>& gs) const
 {
     const label n = cloud_->n();
     gp.resize(n), lap.resize(n), gs.resize(cloud_->nAll());
-    const view v = viewOf(*cloud_, *list_, *B_, phi, loadStart_, load_);
+    const view v{*list_, *B_, cloud_->x.data(), phi.data()};
     parallelFor(n,
                 [&](label b, label e) { firstRange(v, b, e, gp.data(), lap.data(), gs.data()); });
+    solidGradient(phi, gp);
+    solidDivergence(phi, [&](label i, scalar div) { gp[i][3] = div; });
 }
 
 void monolithicRows::secondPass(const List<vec4>& gs, List<scalar>& cp) const
 {
     cp.resize(cloud_->n());
-    const view v = viewOf(*cloud_, *list_, *B_, gs, loadStart_, load_);
+    const view v{*list_, *B_, cloud_->x.data(), gs.data()};
     parallelFor(cloud_->n(), [&](label b, label e) {
         secondRange(v, pairTau_.data(), b, e, gs.data(), cp.data());
     });
@@ -179,22 +175,24 @@ void monolithicRows::secondPass(const List<vec4>& gs, List<scalar>& cp) const
 void monolithicRows::viscousNeighbours(const List<vec4>& phi, List<vec4>& sum) const
 {
     sum.resize(cloud_->n());
-    const view v = viewOf(*cloud_, *list_, *B_, phi, loadStart_, load_);
+    const view v{*list_, *B_, cloud_->x.data(), phi.data()};
     parallelFor(cloud_->n(), [&](label b, label e) { viscousRange(v, b, e, sum.data()); });
 }
 
 void monolithicRows::divergence(const List<vec4>& phi, List<scalar>& div) const
 {
     div.resize(cloud_->n());
-    const view v = viewOf(*cloud_, *list_, *B_, phi, loadStart_, load_);
+    const view v{*list_, *B_, cloud_->x.data(), phi.data()};
     parallelFor(cloud_->n(), [&](label b, label e) { divergenceRange(v, b, e, div.data()); });
+    solidDivergence(phi, [&](label i, scalar d) { div[i] = d; });
 }
 
 void monolithicRows::pressureGradient(const List<vec4>& phi, List<vec4>& gp) const
 {
     gp.resize(cloud_->n());
-    const view v = viewOf(*cloud_, *list_, *B_, phi, loadStart_, load_);
+    const view v{*list_, *B_, cloud_->x.data(), phi.data()};
     parallelFor(cloud_->n(), [&](label b, label e) { gradientRange(v, b, e, gp.data()); });
+    solidGradient(phi, gp);
 }
 
 }  // namespace ispf

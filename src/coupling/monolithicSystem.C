@@ -4,12 +4,13 @@
 namespace ispf
 {
 
-void monolithicSystem::setup(scalar dt, const solidSurface& surface, const blockMatrix3* K)
+void monolithicSystem::setup(scalar dt, const volumeConstraint* volume, const solidSurface* surface,
+                             const blockMatrix3* K)
 {
     const particleCloud& cloud = c_.cloud;
     dt_ = dt, K_ = K;
     rows_.setup(cloud, c_.list, c_.correction);
-    rows_.setLoads(surface.start, surface.c);
+    rows_.setSolid(volume, surface);
     const scalar inertia = c_.rho * cloud.volume() / dt;
     // clamped particles carry no tangent among themselves: they weigh as the mean free one does
     scalar meanTangent = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solidSurface.H"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ispf
@@ -9,6 +10,9 @@ namespace ispf
 namespace
 {
 
+constexpr const char* areaField[2] = {"surfaceAreaA", "surfaceAreaB"};  // {S0, zone + 1}
+constexpr const char* wayField[2] = {"surfaceWayA", "surfaceWayB"};     // {e0, -}
+
 // Fluid zone of a neighbour, -1 for a rigid one
 int fluidZone(const particleCloud& cloud, label j)
 {
@@ -16,102 +20,151 @@ int fluidZone(const particleCloud& cloud, label j)
     return cloud.zone[j < cloud.n() ? j : cloud.ghostSource(j)];
 }
 
-vector kernelGradient(const particleCloud& cloud, const neighbourList& list, label i,
-                      std::int64_t k)
+// Depth below a plane from the fraction of the kernel beyond it,
+//
+//     int_d^H W 2 pi r (r - d) dr in 3D,   int_d^H W 2 r acos(d/r) dr in 2D
+class depthTable
 {
-    return list.F[k] * (cloud.x[i].xyz() - cloud.x[list.index[k]].xyz());
-}
+public:
+    depthTable(const smoothingKernel& kernel, int nDims) : H_(kernel.support())
+    {
+        constexpr int nPoints = 200;
+        for (int k = 0; k <= nDepths; ++k)
+        {
+            const scalar d = H_ * k / nDepths, dr = (H_ - d) / nPoints;
+            scalar sum = 0;
+            for (int q = 0; q < nPoints; ++q)
+            {
+                const scalar r = d + (q + 0.5) * dr;
+                const scalar cap = nDims == 3 ? 2 * M_PI * r * (r - d) : 2 * r * std::acos(d / r);
+                sum += kernel.W(r) * cap * dr;
+            }
+            beyond_[k] = sum;
+        }
+    }
+    scalar depth(scalar fraction) const
+    {
+        if (fraction >= beyond_[0]) return 0;
+        int k = 1;
+        while (k < nDepths && beyond_[k] > fraction) ++k;
+        const scalar part = (beyond_[k - 1] - fraction) / (beyond_[k - 1] - beyond_[k]);
+        return H_ * (k - 1 + std::min(part, scalar(1))) / nDepths;
+    }
 
-constexpr const char* sideField = "surfaceSides";  // {M0, a + 256 b}; a, b zone numbers plus one
-int sideA(scalar code)
-{
-    return int(code) % 256 - 1;
-}
-int sideB(scalar code)
-{
-    return int(code) / 256 - 1;
-}
+private:
+    static constexpr int nDepths = 64;
+    scalar H_;
+    scalar beyond_[nDepths + 1];
+};
 
 }  // namespace
 
 void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
-                              const List<tensor>& F) const
+                              const smoothingKernel& kernel, const List<tensor>& F) const
 {
-    if (cloud.vectors.count(sideField)) return;
-    List<vec4>& sides = cloud.vectors[sideField];
-    sides.assign(cloud.n(), vec4{});
-    List<vector> sum(cloud.zones.size());
+    if (cloud.vectors.count(areaField[0])) return;
+    for (const int s : {0, 1})
+        for (const char* name : {areaField[s], wayField[s]})
+            cloud.vectors[name].assign(cloud.n(), vec4{});
+    const depthTable table(kernel, cloud.nDims);
+    const scalar V = cloud.volume(), least = 2e-3 * V / cloud.dx;
+    List<vector> area(cloud.zones.size());
+    List<scalar> fraction(cloud.zones.size());
     for (label i = 0; i < cloud.nSolid(); ++i)
     {
-        for (vector& s : sum) s.setZero();
+        for (vector& a : area) a.setZero();
+        std::fill(fraction.begin(), fraction.end(), 0);
         for (std::int64_t k = list.mid[i]; k < list.start[i + 1]; ++k)
-            if (const int z = fluidZone(cloud, list.index[k]); z >= 0)
-                sum[z] += kernelGradient(cloud, list, i, k);
-        // the two fluid zones that weigh most; below 0.001/dx a zone is out of sight
-        int a = -1, b = -1;
-        for (int z = 0; z < int(sum.size()); ++z)
         {
-            if (sum[z].norm() < 1e-3 / cloud.dx) continue;
-            if (a < 0 || sum[z].norm() > sum[a].norm()) b = a, a = z;
-            else if (b < 0 || sum[z].norm() > sum[b].norm()) b = z;
+            const label j = list.index[k];
+            const int z = fluidZone(cloud, j);
+            if (z < 0) continue;
+            const vector xij = cloud.x[i].xyz() - cloud.x[j].xyz();
+            area[z] += 2 * V * list.F[k] * xij;
+            fraction[z] += V * kernel.W(xij.norm());
         }
-        const vector M =
-            (a < 0 ? vector::Zero() : sum[a]) - (b < 0 ? vector(vector::Zero()) : sum[b]);
-        sides[i] = vec4::from(F[i].transpose() * M / F[i].determinant(), (a + 1) + 256 * (b + 1));
+        // the two zones that weigh most; below `least` a zone is out of sight
+        for (const int s : {0, 1})
+        {
+            const auto most = std::max_element(
+                area.begin(), area.end(),
+                [](const vector& a, const vector& b) { return a.norm() < b.norm(); });
+            if (most->norm() < least) break;
+            const label z = label(most - area.begin());
+            const vector e = table.depth(fraction[z]) * most->normalized();
+            cloud.vectors[areaField[s]][i] =
+                vec4::from(F[i].transpose() * *most / F[i].determinant(), scalar(z + 1));
+            cloud.vectors[wayField[s]][i] = vec4::from(F[i].inverse() * e);
+            most->setZero();
+        }
     }
 }
 
-void solidSurface::loads(const particleCloud& cloud, const neighbourList& list,
+void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
                          const smoothingKernel& kernel, const List<tensor>& F)
 {
-    const List<vec4>& sides = cloud.vectors.at(sideField);
+    cloud_ = &cloud, list_ = &list;
     const label nSolid = cloud.nSolid();
-    start.assign(nSolid + 1, 0);
-    for (label i = 0; i < nSolid; ++i) start[i + 1] = start[i] + list.start[i + 1] - list.mid[i];
-    c.assign(start[nSolid], vec4{});
-    List<char> twoSided(nSolid, 0);
+    start_.assign(nSolid + 1, 0);
+    for (label i = 0; i < nSolid; ++i) start_[i + 1] = start_[i] + list.start[i + 1] - list.mid[i];
+    for (const int s : {0, 1}) part_[s].resize(nSolid), weight_[s].assign(start_[nSolid], 0);
     parallelFor(
         nSolid,
         [&](label begin, label end) {
-            List<scalar> w;
+            for (label i = begin; i < end; ++i) setupParticle(i, kernel, F[i]);
+        },
+        256);
+}
+
+void solidSurface::setupParticle(label i, const smoothingKernel& kernel, const tensor& F)
+{
+    const particleCloud& cloud = *cloud_;
+    const tensor cofactor = F.determinant() * F.inverse().transpose();
+    for (const int s : {0, 1})
+    {
+        const vec4& S0 = cloud.vectors.at(areaField[s])[i];
+        sided& part = part_[s][i];
+        part = {int(S0[3]) - 1, cofactor * S0.xyz(), cloud.vectors.at(wayField[s])[i].xyz()};
+        if (part.side < 0) continue;
+        scalar sum = 0;
+        const label m = label(start_[i + 1] - start_[i]);
+        scalar* w = weight_[s].data() + start_[i];
+        for (label q = 0; q < m; ++q)
+        {
+            const label j = list_->index[list_->mid[i] + q];
+            if (fluidZone(cloud, j) != part.side) continue;
+            w[q] = kernel.W((cloud.x[i].xyz() - cloud.x[j].xyz()).norm());
+            sum += w[q];
+        }
+        for (label q = 0; q < m && sum > 0; ++q) w[q] /= sum;
+    }
+}
+
+void solidSurface::loads(const List<vec4>& up, List<vec4>& Q, List<tensor>& P) const
+{
+    const label nSolid = cloud_->nSolid();
+    const scalar perVolume = 1 / cloud_->volume();
+    Q.resize(nSolid), P.resize(nSolid);
+    parallelFor(
+        nSolid,
+        [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
             {
-                const label m = label(start[i + 1] - start[i]);
-                w.assign(m, 0);
-                vector N = vector::Zero();
-                List<scalar> weight(cloud.zones.size(), 0);
-                for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
+                Q[i] = vec4{}, P[i].setZero();
+                for (const int s : {0, 1})
                 {
-                    const label j = list.index[k];
-                    const int z = k < list.mid[i] ? -1 : fluidZone(cloud, j);
-                    if (z < 0) N -= kernelGradient(cloud, list, i, k);
-                    else
-                        weight[z] += w[k - list.mid[i]] =
-                            kernel.W((cloud.x[i].xyz() - cloud.x[j].xyz()).norm());
-                }
-                int a = sideA(sides[i][3]), b = sideB(sides[i][3]);
-                vector load[2] = {N, vector::Zero()};
-                if (a >= 0 && b >= 0)
-                {
-                    const vector M =
-                        F[i].determinant() * F[i].inverse().transpose() * sides[i].xyz();
-                    load[0] = 0.5 * (N + M), load[1] = 0.5 * (N - M);
-                    twoSided[i] = 1;
-                }
-                else if (a < 0)  // saw no fluid at first: all to the zone it sees most of now
-                    for (int z = 0; z < int(weight.size()); ++z)
-                        if (weight[z] > 0 && (a < 0 || weight[z] > weight[a])) a = z;
-                for (label q = 0; q < m; ++q)
-                {
-                    const int z = fluidZone(cloud, list.index[list.mid[i] + q]);
-                    if (z >= 0 && (z == a || z == b))
-                        c[start[i] + q] = vec4::from(2 * w[q] / weight[z] * load[z == a ? 0 : 1]);
+                    const sided& part = part_[s][i];
+                    if (part.side < 0) continue;
+                    scalar p = 0;
+                    const scalar* w = weight_[s].data() + start_[i];
+                    for (std::int64_t k = list_->mid[i]; k < list_->start[i + 1]; ++k)
+                        p += *w++ * up[list_->index[k]].s[3];
+                    Q[i].s += p * vec4::from(part.S).s;
+                    P[i] += p * perVolume * part.S * part.e0.transpose();
                 }
             }
         },
         256);
-    nTwoSided = 0;
-    for (const char t : twoSided) nTwoSided += t;
 }
 
 }  // namespace ispf
