@@ -6,6 +6,14 @@
 namespace ispf
 {
 
+namespace
+{
+
+constexpr scalar longestMove = 0.15;  // in dx, at a time
+constexpr scalar longestDrift = 0.5;  // in dx, of particles outside the zones: their edges are free
+
+}  // namespace
+
 packingGuides::packingGuides(const zoneGeometry& geometry, const exterior& outside)
     : geometry_(geometry), outside_(outside)
 {
@@ -13,6 +21,20 @@ packingGuides::packingGuides(const zoneGeometry& geometry, const exterior& outsi
     for (size_t z = 0; z < geometry.zones().size(); ++z)
         zoneSurface_.emplace_back(
             withImages(geometry.boundary(label(z)), geometry.symmetryPlanes(), reach));
+}
+
+void packingGuides::move(packedParticle& p, vector by, bool exactly) const
+{
+    const scalar length = by.norm(), most = longestMove * geometry_.dx();
+    if (length > most) by *= most / length;
+    if (geometry_.nDims() == 2) by[2] = 0;
+    if (p.where != packedParticle::place::zone)
+    {
+        const vector drift = p.x + by - p.seed;
+        const scalar far = longestDrift * geometry_.dx();
+        if (drift.norm() > far) by = p.seed + far / drift.norm() * drift - p.x;
+    }
+    hold(p, by, exactly);
 }
 
 void packingGuides::hold(packedParticle& p, const vector& by, bool exactly) const

@@ -2,7 +2,9 @@
 #include "packingReport.H"
 
 #include "cellList.H"
+#include "packing.H"
 #include "smoothingKernel.H"
+#include "wallLayers.H"
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -24,21 +26,25 @@ List<vector> everything(const zoneGeometry& geometry, const placedParticles& pla
     return all;
 }
 
-// Where no neighbours are: faces of solids that touch nothing, faces without rigid particles
-triSurface openEnds(const zoneGeometry& geometry)
+// Solids that touch are one body
+void setLayers(const zoneGeometry& geometry, const placedParticles& placed,
+               List<zoneQuality>& quality)
 {
-    triSurface ends;
-    for (size_t z = 0; z < geometry.zones().size(); ++z)
-    {
-        const triSurface& s = geometry.boundary(label(z));
-        ends.append(s.subset([&](label t) {
-            const word& name = s.patchNames[s.patch[t]];
-            for (const patchInfo& p : geometry.patches())
-                if (p.name == name) return p.type == patchInfo::kind::other;
-            return name.empty();
-        }));
-    }
-    return ends;
+    List<vector> body;
+    List<label> zone;
+    for (size_t i = 0; i < placed.x.size(); ++i)
+        if (geometry.zones()[placed.zone[i]].phase == phaseType::solid)
+            body.push_back(placed.x[i]), zone.push_back(placed.zone[i]);
+    const label n = label(body.size());
+    if (n == 0) return;
+    for (const halfSpace& plane : geometry.symmetryPlanes())
+        for (size_t i = 0, m = body.size(); i < m; ++i)
+            if (plane.distance(body[i]) > -12 * geometry.dx())
+                body.push_back(plane.mirror(body[i]));
+    const List<scalar> layers = layersBelow(body, n, geometry.dx(), geometry.nDims());
+    for (label i = 0; i < n; ++i)
+        if (scalar& least = quality[zone[i]].layers; layers[i] > 0)
+            least = least == 0 ? layers[i] : std::min(least, layers[i]);
 }
 
 }  // namespace
@@ -75,6 +81,7 @@ List<zoneQuality> packingQuality(const zoneGeometry& geometry, const placedParti
         q.least = std::min(q.least, sum[i]), q.most = std::max(q.most, sum[i]);
         q.mean += sum[i], q.rms += (sum[i] - 1) * (sum[i] - 1);
     }
+    setLayers(geometry, placed, quality);
     for (size_t z = 0; z < quality.size(); ++z)
     {
         zoneQuality& q = quality[z];
@@ -96,7 +103,7 @@ void reportPacking(const zoneGeometry& geometry, const placedParticles& placed, 
     };
     out << "\nzone              volume  particles  error %   kernel sum %: least   mean    most    "
            "rms"
-           "   closest/dx\n";
+           "   closest/dx   layers\n";
     for (size_t z = 0; z < quality.size(); ++z)
     {
         const zoneQuality& q = quality[z];
@@ -111,7 +118,9 @@ void reportPacking(const zoneGeometry& geometry, const placedParticles& placed, 
             out << std::setw(22) << percent(q.least - 1) << std::setw(8) << percent(q.mean - 1)
                 << std::setw(8) << percent(q.most - 1) << std::setw(7) << percent(q.rms).substr(1);
         else out << std::setw(45) << "no particle has neighbours all around";
-        out << std::setw(13) << str(q.minDistance, 3) << "\n";
+        out << std::setw(13) << str(q.minDistance, 3);
+        if (q.layers > 0) out << std::setw(9) << str(q.layers, 2);
+        out << "\n";
     }
     label strip = 0;
     for (const label p : placed.strip) strip += p >= 0;

@@ -18,9 +18,6 @@ using place = packedParticle::place;
 constexpr scalar narrowSupport = 1.7;  // in dx
 constexpr scalar wideRate = 0.4;       // of the displacement that would cure a long wave at once
 constexpr scalar narrowRate = 0.12;
-constexpr scalar longestMove = 0.15;  // in dx, per iteration
-constexpr scalar longestDrift =
-    0.35;  // in dx, of particles outside the zones: their edges are free
 constexpr label correctionInterval = 12;  // iterations between additions and removals
 constexpr scalar tolerableSum = 0.035;    // deviation of a kernel sum that calls for a correction
 
@@ -61,7 +58,7 @@ private:
         pairs_.refresh(particles_);
         parallelFor(label(particles_.size()), [&](label begin, label end) {
             repulsion work;
-            for (label i = begin; i < end; ++i) move(i, rate * push(i, work));
+            for (label i = begin; i < end; ++i) guides_.move(particles_[i], rate * push(i, work));
         });
     }
 
@@ -87,21 +84,6 @@ private:
         for (size_t k = 0; k < n; ++k)
             sum -= (wideRate * work.wide[k] + narrowRate * work.narrow[k]) * work.apart[k];
         return cell_ * dx_ * dx_ * sum;
-    }
-
-    void move(label i, vector by)
-    {
-        packedParticle& p = particles_[i];
-        const scalar length = by.norm(), most = longestMove * dx_;
-        if (length > most) by *= most / length;
-        if (geometry_.nDims() == 2) by[2] = 0;
-        if (p.where != place::zone)
-        {
-            const vector drift = p.x + by - p.seed;
-            const scalar far = longestDrift * dx_;
-            if (drift.norm() > far) by = p.seed + far / drift.norm() * drift - p.x;
-        }
-        guides_.hold(p, by);
     }
 
     scalar kernelSum(const cellList& cells, const vector& x) const
@@ -256,6 +238,7 @@ placedParticles placeBodyFitted(const zoneGeometry& geometry, const exterior& ou
     relaxationSettings settings;
     settings.support = support;
     relaxPacking(particles, guides, target, settings);
+    evenSums(particles, guides, support);
     return finishPacking(particles, geometry, outside, support);
 }
 

@@ -75,7 +75,7 @@ private:
         // Layers of solids keep their place, so that a wall has as many as fit; a fluid finds its own
         const bool solid = geometry_.zones()[zone].phase == phaseType::solid;
         s.p.where = place::zone, s.p.owner = zone;
-        s.p.depth = s.band == 0 && solid ? 0.5 * width : -1;
+        s.p.depth = (s.band == 0 || thin) && solid ? (s.band + 0.5) * width : -1;
         s.p.x = q.point + (s.band + 0.5) * width * inward;
         return true;
     }
