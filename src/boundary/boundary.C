@@ -98,10 +98,10 @@ void boundary::setStep(scalar t0, scalar t1)
     for (openFace& face : content_->openFaces) face.setTime(t1);
 }
 
-void boundary::setFlags(particleCloud& cloud) const
+void boundary::setFlags(particleCloud& cloud, const List<vector>& weight) const
 {
     std::fill(cloud.pFixed.begin(), cloud.pFixed.end(), 0);
-    for (const openFace& face : content_->openFaces) face.setFlags(cloud);
+    for (const openFace& face : content_->openFaces) face.setFlags(cloud, weight);
 }
 
 void boundary::updateGhosts(particleCloud& cloud) const
@@ -138,6 +138,7 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
 {
     content& c = *content_;
     cloud.clearGhosts();
+    c.guard.rememberWalls(c.walls);
     const List<scalar> swept = c.walls.moveTo(t1);
     label pushed = 0;
     if (!c.walls.empty())
@@ -157,7 +158,7 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
         const openFace::change change = c.openFaces[k].exchange(cloud);
         b.created += change.created, b.deleted += change.deleted;
     }
-    if (!c.walls.empty()) c.guard.remember(cloud, c.walls);
+    if (!c.walls.empty()) c.guard.remember(cloud);
     c.walls.cover(cloud);
     return pushed;
 }

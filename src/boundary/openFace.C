@@ -33,7 +33,7 @@ scalar openFace::weight(scalar q)
     return q < 1 ? a * a : 0;
 }
 
-void openFace::setFlags(particleCloud& cloud) const
+void openFace::setFlags(particleCloud& cloud, const List<vector>& weight) const
 {
     parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
         for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
@@ -43,6 +43,8 @@ void openFace::setFlags(particleCloud& cloud) const
             const surfaceFoot f = surface_->find(x);
             if (!f.found || f.depth <= 0) continue;
             cloud.pFixed[i] = 1, cloud.pGiven[i] = given_;
+            // without a gradient the strip would fall freely onto the face
+            if (!weight.empty()) cloud.pGiven[i] += f.depth * f.normal.dot(weight[cloud.zone[i]]);
         }
     });
 }

@@ -35,7 +35,6 @@ bool carries(const wall& w)
 void planeLattice::set(const imageGroup& group, const particleCloud& cloud, scalar support)
 {
     group_ = &group, nDims_ = cloud.nDims, dx_ = cloud.dx, support_ = support;
-    if (cloud.n() > 0) origin_ = cloud.x[cloud.n() - 1].xyz();
 }
 
 // Where the region ends along e and the lattice coordinates inside and behind its ends
@@ -65,7 +64,7 @@ planeLattice::axis planeLattice::axisOf(const vector& e, const List<wall>& walls
     scalar first = a.low + 0.5 * dx_;
     if (!a.lowBound && a.highBound) first = a.high - (n - 0.5) * dx_;
     if (!a.lowBound && !a.highBound)
-        first = origin_.dot(e) - std::floor((origin_.dot(e) - a.low) / dx_) * dx_;
+        first = (std::floor(a.low / dx_) + 0.5) * dx_;  // of no particle: a restart finds the same
     const scalar spacing = both ? (a.high - a.low) / n : dx_;
     if (both) first = a.low + 0.5 * spacing;
     for (label k = 0; k < n; ++k) a.inside.push_back(first + k * spacing);

@@ -59,7 +59,7 @@ List<label> wallGuard::apply(particleCloud& cloud, const wallSet& walls) const
 {
     const label first = cloud.nSolid(), n = cloud.n() - first;
     const auto field = cloud.vectors.find(seenField);
-    const bool hasSeen = field != cloud.vectors.end() && !seenOffsets_.empty();
+    const bool hasSeen = field != cloud.vectors.end();
     List<label> hit(n, -1);  // the wall that pushed particle i first
     parallelFor(n, [&](label begin, label end) {
         for (label k = begin; k < end; ++k)
@@ -93,10 +93,13 @@ List<label> wallGuard::apply(particleCloud& cloud, const wallSet& walls) const
     return pushed;
 }
 
-void wallGuard::remember(particleCloud& cloud, const wallSet& walls)
+void wallGuard::remember(particleCloud& cloud) const
 {
-    List<vec4>& seen = cloud.vectors[seenField];
-    seen.assign(cloud.x.begin(), cloud.x.begin() + cloud.n());
+    cloud.vectors[seenField].assign(cloud.x.begin(), cloud.x.begin() + cloud.n());
+}
+
+void wallGuard::rememberWalls(const wallSet& walls)
+{
     seenOffsets_.clear();
     for (const wallSet::body& b : walls.bodies()) seenOffsets_.push_back(walls.offset(b));
 }

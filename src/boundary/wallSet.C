@@ -11,7 +11,7 @@ namespace ispf
 void wallSet::read(const word& caseFolder, const dictionary& patches, const imageGroup& group,
                    const particleCloud& cloud, scalar support)
 {
-    support_ = support;
+    support_ = support, nDims_ = cloud.nDims;
     if (empty()) return;
     makeBodies(caseFolder, patches, group, support + cloud.dx);
     readRigid(caseFolder, patches);
@@ -60,6 +60,14 @@ void wallSet::setStep(scalar t0, scalar t1)
     for (wall& w : walls_) w.setStep(t0, t1);
 }
 
+// In two dimensions surfaces are slices: the factor from their area to a length
+scalar wallSet::perDepth(const patchSurface& s) const
+{
+    if (nDims_ == 3) return 1;
+    const boundBox box = s.mesh()->bounds();
+    return 1 / (box.max[2] - box.min[2]);
+}
+
 List<scalar> wallSet::moveTo(scalar t)
 {
     List<scalar> swept(walls_.size(), 0);
@@ -70,9 +78,9 @@ List<scalar> wallSet::moveTo(scalar t)
         {
             const label w = b.walls[k];
             const vector moved = walls_[w].offset - from[w];
-            const vector area = walls_[w].plane
-                                    ? lattice_.area(walls_[w], walls_) * walls_[w].normal
-                                    : b.surface->areaVector(label(k));
+            const vector area =
+                walls_[w].plane ? lattice_.area(walls_[w], walls_) * walls_[w].normal
+                                : vector(perDepth(*b.surface) * b.surface->areaVector(label(k)));
             swept[w] = -moved.dot(area);
         }
     return swept;

@@ -84,6 +84,11 @@ void fsiCase::readStructure()
                              "how they resist");
         return;
     }
+    if (cloud.nSolid() == 0)
+        throw fatalError(
+            "constant/structureProperties says how a structure resists, but no "
+            "particle is solid. Remove the file, or give a zone phase solid",
+            properties.where());
     structureReference ref;
     ref.nDims = cloud.nDims, ref.dx = cloud.dx, ref.h = kernel->h();
     ref.support = kernel->support(), ref.rho = rho;
@@ -97,7 +102,9 @@ void fsiCase::readStructure()
 void fsiCase::updateNeighbours(scalar t0, scalar t1)
 {
     walls->setStep(t0, t1);
-    walls->setFlags(cloud);
+    List<vector> weight;
+    for (const vector& a : bodyForce) weight.push_back(rho * a);
+    walls->setFlags(cloud, weight);
     cloud.sortFluid(kernel->support());
     walls->updateGhosts(cloud);
     list.build(cloud, *kernel, walls->visible(cloud));

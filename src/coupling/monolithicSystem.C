@@ -47,7 +47,8 @@ void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce
     for (label i = 0; i < cloud.n(); ++i)
     {
         vector m = mass / dt_ * cloud.Up[i].xyz() - viscousFactor() * lap_[i].xyz();
-        if (!c_.bodyForce.empty()) m += mass * c_.bodyForce[cloud.zone[i]];
+        if (!c_.bodyForce.empty())
+            m += mass * (c_.bodyForce[cloud.zone[i]] - hydrostatic_.acceleration());
         if (i < label(springForce.size())) m += springForce[i].xyz();
         if (cloud.nDims == 2) m[2] = 0;
         for (int a = 0; a < 3; ++a) b[4 * i + a] = cloud.uFixed[i] ? 0 : m[a] / diagonal_[i];

@@ -11,6 +11,7 @@
 //     shifting { ... }     solvers { p { ... } U { ... } }
 //
 // and `divergence`, `gradient` of system/sphSchemes.
+#include "hydrostaticPart.H"
 #include "particleShifting.H"
 #include "projectionLimits.H"
 #include "projectionStep.H"
@@ -37,9 +38,9 @@ public:
           limits_(c, explicit_, mean_, dict_.subOrEmptyDict("limits")),
           step_(c.rho, c.mu, explicit_ ? "explicit" : "implicit",
                 operatorSchemes::fromDict(c.schemes), c.solution),
-          shifting_(c.solution.subOrEmptyDict("shifting"))
+          shifting_(c.solution.subOrEmptyDict("shifting")),
+          hydrostatic_(c)
     {
-        hydrostatic_ = hydrostaticPart();
         info() << "projection: viscosity " << (explicit_ ? "explicit" : "implicit")
                << ", positionUpdate " << (mean_ ? "mean" : "symplectic") << ", shifting "
                << shifting_.describe() << std::endl;
@@ -50,9 +51,8 @@ public:
 
 private:
     List<vec4> accelerations() const;
-    vector hydrostaticPart() const;
-    void addHydrostatic(scalar sign);
     List<scalar> sources() const;
+    void solve(const stencil& s, scalar dt);
     void move(const List<vec4>& before, scalar dt);
     void printCourant(scalar dt) const;
 
@@ -62,40 +62,8 @@ private:
     projectionLimits limits_;
     projectionStep step_;
     particleShifting shifting_;
-    vector hydrostatic_;  // acceleration that the pressure alone carries
+    hydrostaticPart hydrostatic_;
 };
-
-// The part of a uniform body force that has a potential in this domain, i.e. all but its components
-// along cyclic directions.  The equations are solved for p - rho a.x, as with OpenFOAM's p_rgh: fluid
-// at rest then stays so exactly, beside walls of any kind.
-vector projection::hydrostaticPart() const
-{
-    if (c_.bodyForce.empty()) return vector::Zero();
-    vector a = c_.bodyForce[0];
-    for (const vector& other : c_.bodyForce)
-        if (other != a) return vector::Zero();
-    List<vector> along;
-    for (const structureImage& image : c_.walls->images())
-    {
-        if (!image.R.isIdentity(1e-9)) continue;
-        vector t = image.t;
-        for (const vector& e : along) t -= t.dot(e) * e;
-        if (t.norm() > 1e-6 * image.t.norm()) along.push_back(t.normalized());
-    }
-    for (const vector& e : along) a -= a.dot(e) * e;
-    return a;
-}
-
-void projection::addHydrostatic(scalar sign)
-{
-    if (hydrostatic_.isZero(0)) return;
-    particleCloud& cloud = c_.cloud;
-    for (label i = 0; i < cloud.n(); ++i)
-    {
-        const scalar p = sign * c_.rho * hydrostatic_.dot(cloud.x[i].xyz());
-        cloud.Up[i][3] += p, cloud.pGiven[i] += p;
-    }
-}
 
 // Body force of the zone and springs, Eq. (2) of the paper
 List<vec4> projection::accelerations() const
@@ -111,7 +79,7 @@ List<vec4> projection::accelerations() const
     }
     if (!c_.bodyForce.empty())
         for (label i = 0; i < cloud.n(); ++i)
-            a[i].s += vec4::from(c_.bodyForce[cloud.zone[i]] - hydrostatic_).s;
+            a[i].s += vec4::from(c_.bodyForce[cloud.zone[i]] - hydrostatic_.acceleration()).s;
     for (label i = 0; i < cloud.n(); ++i)
         if (cloud.uFixed[i]) a[i] = vec4{};
     return a;
@@ -149,6 +117,17 @@ void projection::printCourant(scalar dt) const
     info() << "Courant Number mean: " << sum / cloud.n() << " max: " << most << std::endl;
 }
 
+void projection::solve(const stencil& s, scalar dt)
+{
+    particleCloud& cloud = c_.cloud;
+    const List<scalar> q = sources();
+    step_.predict(cloud, s, accelerations(), dt);
+    hydrostatic_.take(cloud);
+    step_.project(cloud, s, q, c_.kernel->support(), dt);
+    hydrostatic_.giveBack(cloud);
+    step_.printContinuityErrors(cloud, s, q, dt);
+}
+
 void projection::step(scalar t, scalar dt)
 {
     printCourant(dt);
@@ -156,13 +135,14 @@ void projection::step(scalar t, scalar dt)
     particleCloud& cloud = c_.cloud;
     const stencil s{cloud, c_.list, c_.correction};
     const List<vec4> before = mean_ ? cloud.Up : List<vec4>();
-    const List<scalar> q = sources();
-
-    step_.predict(cloud, s, accelerations(), dt);
-    addHydrostatic(-1);
-    step_.project(cloud, s, q, c_.kernel->support(), dt);
-    addHydrostatic(1);
-    step_.printContinuityErrors(cloud, s, q, dt);
+    try
+    {
+        solve(s, dt);
+    }
+    catch (const fatalError& e)
+    {
+        throw fatalError("Time " + str(t + dt) + " s: " + e.what());
+    }
     cloud.checkFinite(t + dt);
 
     // shifted with the neighbours at hand, then moved

@@ -18,6 +18,7 @@ trackedSurface::trackedSurface(const word& name, const fsiCase& c) : name_(name)
     rest_ = readSTL(c.time.constantFile("triSurface/" + name + ".stl"));
     rest_.weld(1e-3 * c.cloud.dx);
     factor_ = c.walls->symmetryFactor();
+    if (const boundBox box = rest_.bounds(); c.cloud.nDims == 2) height_ = box.max[2] - box.min[2];
     attach(c);
     findApex(*c.walls);
     now_ = rest_;
@@ -67,6 +68,9 @@ void trackedSurface::findApex(const boundary& walls)
     label n = 0;
     for (const auto& [a, b] : openHalfEdges(rest_))
     {
+        // in two dimensions the rim is the ends alone, not the edges of the slice
+        if (height_ > 0 && std::abs(rest_.nodes[a][2] - rest_.nodes[b][2]) < 0.5 * height_)
+            continue;
         const vector middle = 0.5 * (rest_.nodes[a] + rest_.nodes[b]);
         bool onPlane = false;
         for (const auto& [point, normal] : walls.symmetryPlanes())
@@ -87,7 +91,7 @@ void trackedSurface::update(const List<vec4>& x)
         {
             simd4 sum = {};
             for (label k = start_[v]; k < start_[v + 1]; ++k) sum += weight_[k] * x[source_[k]].s;
-            now_.nodes[v] = vector(sum[0], sum[1], sum[2]);
+            now_.nodes[v] = vector(sum[0], sum[1], height_ > 0 ? rest_.nodes[v][2] : sum[2]);
         }
     });
 }
@@ -95,9 +99,8 @@ void trackedSurface::update(const List<vec4>& x)
 scalar trackedSurface::volumeOf(const triSurface& s) const
 {
     scalar volume = 0;
-    for (label t = 0; t < s.size(); ++t)
-        volume += (s.corner(t, 0) - apex_).dot(s.areaVector(t)) / 3;
-    return std::abs(volume) * factor_;
+    for (label t = 0; t < s.size(); ++t) volume += (s.corner(t, 0) - apex_).dot(s.areaVector(t));
+    return std::abs(volume) * factor_ / (height_ > 0 ? 2 * height_ : 3);
 }
 
 }  // namespace ispf

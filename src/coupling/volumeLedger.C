@@ -18,9 +18,12 @@ volumeLedger::volumeLedger(fsiCase& c) : c_(c)
         cavity0_ = cavity_->restVolume();
     }
     wall0_ = wallVolume();
-    List<scalar>& state = c.cloud.history["volumeLedger"];  // survives a restart
-    if (state.size() == 3) controlled_ = state[0], source_ = state[1], wall0_ = state[2];
-    else state = {0, 0, wall0_};
+    if (cavity_ || c.structure)  // survives a restart
+    {
+        List<scalar>& state = c.cloud.history["volumeLedger"];
+        if (state.size() == 3) controlled_ = state[0], source_ = state[1], wall0_ = state[2];
+        else state = {0, 0, wall0_};
+    }
     c.source.assign(c.cloud.zones.size(), 0);
     if (zone_ >= 0) c.source[zone_] = source_;
 
@@ -28,7 +31,8 @@ volumeLedger::volumeLedger(fsiCase& c) : c_(c)
     std::filesystem::create_directories(folder);
     file_.open(folder + "/volumeLedger.dat");
     if (!file_) throw fatalError("Cannot write " + folder + "/volumeLedger.dat");
-    file_ << "# Volumes of the whole body [m^3]; control: added by the control term\n"
+    file_ << "# Volumes of the whole body [m^" << c.cloud.nDims
+          << "]; control: added by the control term\n"
           << "# Time\tswept\tcavity\topenNet\twall\tcontrol\n";
 }
 
@@ -75,9 +79,13 @@ void volumeLedger::writeLine()
     for (const scalar v : {swept(), cavityChange(), open, wallVolume() - wall0_, controlled_})
         file_ << '\t' << v;
     file_ << std::endl;
-    info() << "volume ledger: swept " << str(swept() * 1e9) << " mm3, cavity "
-           << str(cavityChange() * 1e9) << " mm3, wall " << str((wallVolume() - wall0_) * 1e9)
-           << " mm3, control " << str(controlled_ * 1e9) << " mm3\n";
+    const auto inMm = [&](scalar v) {
+        return c_.cloud.nDims == 2 ? str(v * 1e6) + " mm2" : str(v * 1e9) + " mm3";
+    };
+    info() << "volume ledger: swept " << inMm(swept());
+    if (cavity_) info() << ", cavity " << inMm(cavityChange()) << ", control " << inMm(controlled_);
+    if (c_.structure) info() << ", wall " << inMm(wallVolume() - wall0_);
+    info() << "\n";
 }
 
 }  // namespace ispf
