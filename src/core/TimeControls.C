@@ -121,8 +121,7 @@ word Time::folderName(scalar t) const
 
 bool Time::hasState(scalar t) const
 {
-    const word folder = case_ + "/" + folderName(t);
-    return isFile(folder + "/particles.hdf") || isFile(folder + "/uniform/time");
+    return isFile(case_ + "/" + folderName(t) + "/particles.hdf");
 }
 
 // The folder name holds few digits; uniform/time holds all of them

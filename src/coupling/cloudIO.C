@@ -148,9 +148,10 @@ void writeCloud(Time& time, const particleCloud& cloud, const boundary& walls)
     table.attributes["nextId"] = std::to_string(cloud.nextId());
     writeZones(cloud, table);
 
+    // particles.hdf last: it makes the folder one to continue from
     fs::create_directories(time.timePath());
-    writeParticles(table, time.timePath() + "/particles.hdf");
     time.writeState();
+    writeParticles(table, time.timePath() + "/particles.hdf");
 
     const List<word> purge = time.toPurge();
     List<seriesEntry> series;

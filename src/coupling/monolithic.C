@@ -14,6 +14,7 @@
 #include "FGMRES.H"
 #include "monolithicPreconditioner.H"
 #include "particleShifting.H"
+#include "worstRow.H"
 
 #include <algorithm>
 #include <cmath>
@@ -88,6 +89,7 @@ scalar monolithic::velocityScale() const
 // No limit of stability; where the step is adjusted, the fluid's motion rules it for accuracy
 couplingScheme::stepLimit monolithic::limit() const
 {
+    c_.walls->setStep(c_.time.value(), c_.time.value() + c_.time.deltaT());
     const scalar u = velocityScale();
     if (!c_.time.adjustTimeStep() || u == 0) return {1e30, "no"};
     return {0.4 * c_.kernel->h() / u, "CFL"};
@@ -157,7 +159,8 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     if (!result.converged && !(result.finalResidual < 100 * tolerance_ * result.initialResidual))
         return "the coupled system did not converge (residual " + str(result.finalResidual, 3) +
                " of " + str(result.initialResidual, 3) + " after " +
-               std::to_string(result.nIterations) + " iterations)";
+               std::to_string(result.nIterations) + " iterations), worst at " +
+               cloud.describe(worstRow(system_, b, z) / 4);
     return tooFar(dt, z);
 }
 
@@ -169,10 +172,7 @@ word monolithic::tooFar(scalar dt, const List<scalar>& z) const
     {
         const scalar u = vector(z[4 * i], z[4 * i + 1], z[4 * i + 2]).norm();
         if (u * dt < 0.6 * cloud.dx && std::isfinite(z[4 * i + 3])) continue;
-        return "particle " + std::to_string(cloud.id[i]) + " (zone " +
-               cloud.zones[cloud.zone[i]].name + ") at (" + str(cloud.x[i][0]) + " " +
-               str(cloud.x[i][1]) + " " + str(cloud.x[i][2]) + ") would move " +
-               str(u * dt / cloud.dx, 3) + " dx";
+        return cloud.describe(i) + " would move " + str(u * dt / cloud.dx, 3) + " dx";
     }
     return "";
 }
@@ -180,6 +180,8 @@ word monolithic::tooFar(scalar dt, const List<scalar>& z) const
 void monolithic::step(scalar t, scalar dt)
 {
     advance(t, dt, 0);
+    // a run continued from here has no old factor: both go on alike, bit for bit
+    if (c_.time.writeTime()) preconditioner_.refresh();
 }
 
 // A step that cannot be accepted is taken again as two halves
@@ -190,13 +192,14 @@ void monolithic::advance(scalar t, scalar dt, int depth)
     c_.updateNeighbours(t, t + dt);
     structureState();
     List<scalar> z;
+    system_.hydrostatic().take(cloud);
     if (const word reason = solve(dt, z); !reason.empty())
     {
         if (depth == 4)
             throw fatalError("Time " + str(t) + " s: a step of " + str(dt) +
                              " s is refused: " + reason +
                              ". Sixteenths of deltaT do not help; run checkParticles, and see "
-                             "whether the load or the motion jumps");
+                             "whether a load or a motion jumps. The last written time is intact");
         warning("time " + str(t) + " s: step of " + str(dt) + " s halved: " + reason, 20);
         cloud = before;
         advance(t, 0.5 * dt, depth + 1);
@@ -204,6 +207,7 @@ void monolithic::advance(scalar t, scalar dt, int depth)
         return;
     }
     accept(z, dt);
+    system_.hydrostatic().giveBack(cloud);
 
     // Shift first, with the neighbours at hand, then move: x^{n+1} = x^n + dt u^{n+1}
     shifting_.shift(cloud, c_.list, c_.correction, dt,

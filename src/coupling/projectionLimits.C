@@ -46,7 +46,8 @@ scalar projectionLimits::stiffness() const
 {
     if (!c_.structure) return none;
     const label now = c_.time.timeIndex();
-    if (stableStep_ < 0 || now >= lastUpdate_ + stepsBetweenUpdates)
+    // also after a write, as a run continued from there does
+    if (stableStep_ < 0 || now >= lastUpdate_ + stepsBetweenUpdates || c_.time.writeTime())
     {
         stableStep_ = c_.structure->stableTimeStep(c_.cloud.x, c_.rho * c_.cloud.volume());
         lastUpdate_ = now;
@@ -58,6 +59,7 @@ scalar projectionLimits::stiffness() const
 couplingScheme::stepLimit projectionLimits::ruling(const List<vec4>& acceleration) const
 {
     const scalar h = c_.kernel->h();
+    c_.walls->setStep(c_.time.value(), c_.time.value() + c_.time.deltaT());
     const scalar u = std::max(longest(c_.cloud.Up, c_.cloud.n()), c_.walls->maxWallSpeed());
     const scalar f = longest(acceleration, c_.cloud.n());
     couplingScheme::stepLimit limit{none, "none"};

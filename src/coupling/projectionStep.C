@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "projectionStep.H"
 
+#include "worstRow.H"
+
 #include <ostream>
 
 namespace ispf
@@ -84,8 +86,11 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
         {equation_.A, true, &x, cellSize, nullptr, floor(cloud, dt)}, equation_.source, p_);
     result.print();
     if (!result.converged && !(result.finalResidual < 1e-2))
-        throw fatalError("The pressure equation did not converge: " + result.line() +
-                         "; raise maxIter in solvers.p of system/sphSolution, or reduce deltaT");
+        throw fatalError(
+            "The pressure equation did not converge, worst at " +
+            cloud.describe(worstRow(equation_.A, equation_.source, p_)) + ": " + result.line() +
+            ". Raise maxIter in solvers.p of system/sphSolution, or reduce deltaT, and "
+            "see whether a load or a motion jumps; the last written time is intact");
 
     for (label i = 0; i < n; ++i) cloud.Up[i][3] = p_[i];
     cloud.fillGhosts(cloud.Up, false);

@@ -146,6 +146,12 @@ void particleCloud::fillGradientGhosts(List<vec4>& f) const
     });
 }
 
+word particleCloud::describe(label i) const
+{
+    return "particle " + std::to_string(id[i]) + " (zone " + zones[zone[i]].name + ") at (" +
+           str(x[i][0]) + " " + str(x[i][1]) + " " + str(x[i][2]) + ")";
+}
+
 void particleCloud::checkFinite(scalar time) const
 {
     for (label i = 0; i < n_; ++i)
@@ -153,13 +159,11 @@ void particleCloud::checkFinite(scalar time) const
         scalar sum = 0;
         for (int k = 0; k < 4; ++k) sum += x[i][k] + Up[i][k];
         if (!std::isfinite(sum))
-            throw fatalError(
-                "Particle " + std::to_string(id[i]) + " (zone " + zones[zone[i]].name + ") at (" +
-                str(x[i][0]) + " " + str(x[i][1]) + " " + str(x[i][2]) + ") has U = (" +
-                str(Up[i][0]) + " " + str(Up[i][1]) + " " + str(Up[i][2]) +
-                "), p = " + str(Up[i][3]) + " at time " + str(time) +
-                " s: the run has become unstable. Reduce deltaT or see which limit the "
-                "log names; the last written time is intact");
+            throw fatalError("Time " + str(time) + " s: " + describe(i) + " has U = (" +
+                             str(Up[i][0]) + " " + str(Up[i][1]) + " " + str(Up[i][2]) +
+                             "), p = " + str(Up[i][3]) +
+                             ": the run has become unstable. Reduce deltaT, and see whether a load "
+                             "or a motion jumps; the last written time is intact");
     }
 }
 

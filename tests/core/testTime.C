@@ -165,6 +165,7 @@ TEST_CASE("a continued run takes the steps of an uninterrupted one, bit by bit")
         const record part = runThrough(u, wish);
         steps.insert(steps.end(), part.steps.begin(), part.steps.end());
         u.writeState();
+        parts.write(u.timeName() + "/particles.hdf", "x");
     }
     CHECK(steps == r.steps);
     Time end = parts.time();
@@ -183,11 +184,14 @@ TEST_CASE("startFrom: only folders that hold a state count as latest")
     c.write("2/particles.hdf", "x");
     c.write("10/uniform/other", "x");
     c.write("1.5/uniform/time", "value 1.6; index 3; deltaT 0.1;");
+    c.write("1.5/particles.hdf", "x");
+    c.write("3/uniform/time", "value 3; index 3; deltaT 0.1;");  // killed before it was complete
     CHECK(c.time().value() == 2);
-    CHECK(c.time().times() == List<scalar>{0, 1.5, 2, 10});
+    CHECK(c.time().times() == List<scalar>{0, 1.5, 2, 3, 10});
     std::filesystem::remove_all(c.path + "/2");
     CHECK(c.time().value() == 1.5);  // uniform/time contradicts the folder's name
     c.write("0.333333/uniform/time", "value 0.33333333333333331; index 3; deltaT 0.1;");
+    c.write("0.333333/particles.hdf", "x");
     std::filesystem::remove_all(c.path + "/1.5");
     CHECK(c.time().value() == 1.0 / 3);
     CHECK(c.time().timeIndex() == 3);

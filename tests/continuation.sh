@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The same result, bit for bit: continued after a stop or after kill -9, run twice, with one thread and two
+set -uo pipefail
+. "$(dirname "$0")/cases/functions"
+
+# 13 steps and 13 more, of a run that was never interrupted and of one that starts from the 13th
+continued() { # template name
+    newCase "$1" "$2"
+    eval "${3:-}"
+    place
+    solved
+    grep -q "^particles: " log || fail "$2: no particles"
+    cp -r . "../$2.continued"
+    cd "../$2.continued" && rm -r 0.26
+    solved
+    grep -q "^Time = 0.13$" log && fail "$2: begins anew"
+    same 0.26 "../$2/0.26" "$2: continued from half way"
+}
+adjusted='setEntry system/controlDict writeControl adjustableRunTime
+    setEntry system/controlDict writeInterval 0.13; echo "adjustTimeStep yes;" >> system/controlDict'
+explicitWall='setEntry system/sphSolution coupling projection; setEntry constant/structureProperties E 1000'
+continued piston fluidProjection
+continued piston fluidProjectionAdjusted "$adjusted"
+continued piston fluidMonolithic 'setEntry system/sphSolution coupling monolithic'
+continued membrane wallMonolithic
+continued membrane wallProjection "$explicitWall; $adjusted"
+
+# Killed while it writes every step; what is left of a folder does not matter
+newCase piston killed
+setEntry system/controlDict writeInterval 1; setEntry system/controlDict endTime 0.5
+setEntry system/controlDict deltaT 0.005
+place
+cp -r . ../notKilled
+ispfFsiFoam > log 2>&1 & run=$!
+until [ -e 0.05/particles.hdf ] || ! kill -0 $run 2> /dev/null; do sleep 0.01; done
+kill -9 $run; wait $run 2> /dev/null
+[ -e 0.5 ] && fail "killed too late for a test"
+solved
+[ "$(grep -m 1 '^Time = ' log)" != "Time = 0.005" ] || fail "a killed run begins anew"
+(cd ../notKilled && solved)
+same 0.5 ../notKilled/0.5 "continued after kill -9"
+
+# Large enough for several threads
+for template in piston membrane; do
+    newCase $template threads
+    setEntry system/particleDict dx 0.0025; setEntry system/controlDict deltaT 0.002
+    setEntry system/controlDict endTime 0.004; setEntry system/controlDict writeInterval 2
+    place
+    for n in 1 2; do
+        solved -threads $n
+        grep -q "^threads: $n$" log || fail "$template: not $n threads"
+        mv 0.004 threads$n
+    done
+    solved -threads 2
+    same threads1 threads2 "$template: one thread and two"
+    same threads2 0.004 "$template: run twice"
+done
+[ $failures = 0 ]
