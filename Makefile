@@ -25,7 +25,7 @@ USES_functionObjects := coupling
 
 # Programs: one folder each, all its *.C.  They see every library; packages beyond the common ones:
 APPS := $(sort $(dir $(wildcard applications/solvers/*/*.C applications/utilities/*/*/*.C)))
-PKG_generateParticles := -lgmsh
+PKG_generateParticles := -lgmsh -lmuparser
 
 # Tests: one doctest program per folder of tests/, seeing the library of the same name and below; one
 # named after a program sees every library and all of the program but its main.

@@ -44,6 +44,25 @@ cube
 dict "$stl"
 generateParticles > out 2>&1 && grep -q '^water .* 1000  *+0.00' out || fail "a cube: $(cat out)"
 
+# Velocity and pressure at the start, by formulas
+dict "$stl U (\"10*x - y\" 2 \"sin(pi*z/0.02)\"); p \"dx*sqrt(x*x)\";"
+generateParticles > out 2>&1 || fail "initial fields: $(tail -n 5 out)"
+columns() { h5dump -m %.12g -y -w 1 -d "/VTKHDF/$1" 0/particles.hdf | tr -d ' ,' | grep -E '^[-0-9.e+]+$'; }
+columns Points > points; columns PointData/U > U; columns PointData/p > p
+[ "$(wc -l < U)" = 3000 ] && [ "$(wc -l < p)" = 1000 ] || fail "initial fields: $(wc -l < U) $(wc -l < p)"
+paste <(paste - - - < points) <(paste - - - < U) p | awk '
+    function off(a, b) { return (a - b)^2 > 1e-18 }
+    off($4, 10*$1 - $2) || off($5, 2) || off($6, sin(atan2(0, -1)*$3/0.02)) || off($7, 1e-3*$1) { bad = 1 }
+    END { exit bad }' || fail "initial fields: not the formulas"
+dict "$stl p \"rho*x\";"
+refused "unknown name in a formula" "rho" "Valid names are:" "dx" "pi" "sqrt" "particleDict"
+dict "$stl U (1 2);"
+refused "two components" "three formulas"
+dict "$stl p \"1 + \";"
+refused "broken formula" "1 + "
+dict "$stl p \"sqrt(x - 0.005)\";"
+refused "formula without a finite value" "nan at (0.0005"
+
 dict 'file "constant/missing.stl"; unit mm;'
 refused "missing file" "no geometry file" "constant/missing.stl"
 echo nonsense > constant/cube.xyz

@@ -73,12 +73,17 @@ void writeSurfaces(const word& caseFolder, const zoneGeometry& geometry)
 }
 
 void writeParticleFiles(const word& caseFolder, const zoneGeometry& geometry,
-                        const placedParticles& placed, const List<word>& sources)
+                        const placedParticles& placed, const List<initialFields>& initial,
+                        const List<word>& sources)
 {
     particleTable particles = emptyTable(geometry, sources);
     particles.x = placed.x;
-    particles.vectors["U"].assign(placed.x.size(), vector::Zero());
-    particles.scalars["p"].assign(placed.x.size(), 0);
+    for (size_t i = 0; i < placed.x.size(); ++i)
+    {
+        const initialFields& fields = initial[placed.zone[i]];
+        particles.vectors["U"].push_back(fields.U(placed.x[i]));
+        particles.scalars["p"].push_back(fields.p(placed.x[i]));
+    }
     particles.integers["zone"].assign(placed.zone.begin(), placed.zone.end());
     auto& id = particles.integers["id"];
     id.resize(placed.x.size());

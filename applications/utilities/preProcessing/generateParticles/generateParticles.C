@@ -30,7 +30,7 @@ int main(int argc, char** argv)
             dict.bodyFitted ? placeBodyFitted(geometry, outside, dict.support, dict.stripLayers)
                             : placeOnLattice(geometry, outside, dict.origin, dict.support);
         reportPacking(geometry, placed, dict.support);
-        writeParticleFiles(folder, geometry, placed, dict.sources);
+        writeParticleFiles(folder, geometry, placed, dict.initial(), dict.sources);
         info() << "End" << std::endl;
         return 0;
     });

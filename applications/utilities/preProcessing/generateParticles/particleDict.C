@@ -185,6 +185,7 @@ void particleDict::addZone(const word& name, List<body>& bodies)
     {
         b.zone = label(zones_.size());
         zones_.push_back(zone);
+        initial_.emplace_back(dict, dx);
     }
     bodies.push_back(std::move(b));
 }
