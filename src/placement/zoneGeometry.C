@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "zoneGeometry.H"
 
+#include "cutFacets.H"
 #include "surfaceTopology.H"
 #include <algorithm>
 #include <cmath>
@@ -126,9 +127,13 @@ void zoneGeometry::classify()
     for (size_t z = 0; z < zones_.size(); ++z) own[z] = surfaceSearch(zoneSkin[z]);
     boundary_.resize(zones_.size());
     for (size_t k = 0; k < bodies_.size(); ++k)
-        for (label t = 0; t < skin[k].size(); ++t)
+    {
+        List<const triSurface*> others;
+        for (const body& b : bodies_)
+            if (&b != &bodies_[k]) others.push_back(&b.surface);
+        const triSurface s = cutFacets(skin[k], others, 1.5 * dx_, probe * dx_);
+        for (label t = 0; t < s.size(); ++t)
         {
-            const triSurface& s = skin[k];
             vector c = s.centre(t);
             if (nDims_ == 2) c[2] = 0;
             const vector step = probe * dx_ * s.normal(t);
@@ -140,6 +145,7 @@ void zoneGeometry::classify()
             if (outer >= 0 && !own[outer].within(c, 2 * probe * dx_))
                 addBoundary(outer, s, t, inner, true);
         }
+    }
     for (triSurface& s : boundary_) s.weld(tiny);
 }
 

@@ -189,3 +189,32 @@ TEST_CASE("layers are counted from particles alone")
         CHECK(std::lround(q.layers) == layers);
     }
 }
+
+TEST_CASE("bodies set into others: covered parts of large faces belong to no zone twice")
+{
+    const scalar dx = 0.5e-3, length = 8e-3;
+    const auto cylinder = [&](label zone, scalar r) {
+        return body{zone, revolved({{0, 0}, {r, 0}, {r, length}, {0, length}}), 0};
+    };
+    const List<halfSpace> quarter = {{vector::Zero(), -vector::UnitX()},
+                                     {vector::Zero(), -vector::UnitY()}};
+    const packedScene tubes({{"tube", phaseType::solid}, {"inside"}, {"around"}},
+                            {cylinder(2, 9.5e-3), cylinder(0, 7e-3), cylinder(1, 5e-3)}, quarter,
+                            dx, true);
+    checkVolumes(tubes, tubeVolumes(5e-3, thickness, length, dx), 0.005);
+
+    // on the floor of a tank, in its middle and in its corner, as high as the tank and lower
+    for (const vector& foot : {vector(3e-3, 3e-3, 0), vector(0, 0, 0)})
+        for (const scalar height : {8e-3, 4e-3})
+        {
+            CAPTURE(height);
+            const vector top = foot + vector(4e-3, 4e-3, height);
+            const packedScene tank(
+                {{"pillar", phaseType::solid}, {"water"}},
+                {body{1, unnamed(testShapes::box({0, 0, 0}, {1e-2, 1e-2, 8e-3})), 0},
+                 body{0, unnamed(testShapes::box(foot, top)), 0}},
+                {}, dx, false);
+            const scalar pillar = 16e-6 * height;
+            checkVolumes(tank, {pillar, 8e-7 - pillar}, 1e-9);
+        }
+}
