@@ -30,7 +30,7 @@ PKG_generateParticles := -lgmsh -lmuparser
 # Tests: one doctest program per folder of tests/, seeing the library of the same name and below; one
 # named after a program sees every library and all of the program but its main.
 TESTS := $(sort $(notdir $(patsubst %/,%,$(dir $(wildcard tests/*/*.C)))))
-PKG_TEST_generateParticles := -lgmsh
+PKG_TEST_generateParticles := $(PKG_generateParticles)
 
 # ---- flags ---------------------------------------------------------------------------------------
 CXX      ?= g++
