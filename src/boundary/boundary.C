@@ -158,6 +158,9 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
         const openFace::change change = c.openFaces[k].exchange(cloud);
         b.created += change.created, b.deleted += change.deleted;
     }
+    // rounding errors of surfaces would grow: nothing else keeps a flat case flat
+    for (label i = cloud.nSolid(); cloud.nDims == 2 && i < cloud.n(); ++i)
+        cloud.x[i][2] = cloud.Up[i][2] = 0;
     if (!c.walls.empty()) c.guard.remember(cloud);
     c.walls.cover(cloud);
     return pushed;

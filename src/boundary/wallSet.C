@@ -15,6 +15,9 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
     if (empty()) return;
     makeBodies(caseFolder, patches, group, support + cloud.dx);
     readRigid(caseFolder, patches);
+    // what lies beyond symmetry planes and cyclic sides comes again as an image
+    for (wall& w : walls_)
+        std::erase_if(w.rigid, [&](const vector& x) { return group.beyond(x) > 1e-6 * cloud.dx; });
     lattice_.set(group, cloud, support);
     lattice_.cover(cloud, walls_);
 }

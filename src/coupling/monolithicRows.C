@@ -14,11 +14,25 @@ struct view
     const kernelCorrection& B;
     const vec4* x;
     const vec4* phi;
+    const phaseType* phase;
 
     ISPF_INLINE std::int64_t first(label i) const { return list.start[i]; }
     ISPF_INLINE std::int64_t mid(label i) const { return list.mid[i]; }
     ISPF_INLINE std::int64_t last(label i) const { return list.start[i + 1]; }
 };
+
+// Rigid particles once more: their velocity is met on the wall, half-way to them, so that the
+// difference is twice as large
+ISPF_INLINE simd4 wallShare(const view& v, label i)
+{
+    simd4 sum = {};
+    for (std::int64_t k = v.mid(i); k < v.last(i); ++k)
+    {
+        const label j = v.list.index[k];
+        if (v.phase[j] == phaseType::rigid) sum += v.list.F[k] * (v.phi[j].s - v.phi[i].s);
+    }
+    return sum;
+}
 
 ISPF_HOT void firstRange(const view& v, label begin, label end, vec4* gp, vec4* lap, vec4* gs)
 {
@@ -30,7 +44,7 @@ ISPF_HOT void firstRange(const view& v, label begin, label end, vec4* gp, vec4* 
         gs[i] = vec4::from(gradient, v.phi[i].s[3]);
         sums.add(v.list, v.x, v.phi, i, v.mid(i), v.last(i));
         gp[i] = vec4::from(gradient, sums.divergence(v.B.all[i]));
-        lap[i].s = sums.lap;
+        lap[i].s = sums.lap + wallShare(v, i);
     }
 }
 
@@ -103,7 +117,8 @@ void monolithicRows::setup(const particleCloud& cloud, const neighbourList& list
         for (label i = begin; i < end; ++i)
         {
             scalar sum = 0;
-            for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k) sum += list.F[k];
+            for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
+                sum += cloud.phase[list.index[k]] == phaseType::rigid ? 2 * list.F[k] : list.F[k];
             sumF_[i] = sum;
         }
     });
@@ -156,7 +171,7 @@ void monolithicRows::firstPass(const List<vec4>& phi, List<vec4>& gp, List<vec4>
 {
     const label n = cloud_->n();
     gp.resize(n), lap.resize(n), gs.resize(cloud_->nAll());
-    const view v{*list_, *B_, cloud_->x.data(), phi.data()};
+    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data()};
     parallelFor(n,
                 [&](label b, label e) { firstRange(v, b, e, gp.data(), lap.data(), gs.data()); });
     solidGradient(phi, gp);
@@ -166,7 +181,7 @@ void monolithicRows::firstPass(const List<vec4>& phi, List<vec4>& gp, List<vec4>
 void monolithicRows::secondPass(const List<vec4>& gs, List<scalar>& cp) const
 {
     cp.resize(cloud_->n());
-    const view v{*list_, *B_, cloud_->x.data(), gs.data()};
+    const view v{*list_, *B_, cloud_->x.data(), gs.data(), cloud_->phase.data()};
     parallelFor(cloud_->n(), [&](label b, label e) {
         secondRange(v, pairTau_.data(), b, e, gs.data(), cp.data());
     });
@@ -175,14 +190,14 @@ void monolithicRows::secondPass(const List<vec4>& gs, List<scalar>& cp) const
 void monolithicRows::viscousNeighbours(const List<vec4>& phi, List<vec4>& sum) const
 {
     sum.resize(cloud_->n());
-    const view v{*list_, *B_, cloud_->x.data(), phi.data()};
+    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data()};
     parallelFor(cloud_->n(), [&](label b, label e) { viscousRange(v, b, e, sum.data()); });
 }
 
 void monolithicRows::divergence(const List<vec4>& phi, List<scalar>& div) const
 {
     div.resize(cloud_->n());
-    const view v{*list_, *B_, cloud_->x.data(), phi.data()};
+    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data()};
     parallelFor(cloud_->n(), [&](label b, label e) { divergenceRange(v, b, e, div.data()); });
     solidDivergence(phi, [&](label i, scalar d) { div[i] = d; });
 }
@@ -190,7 +205,7 @@ void monolithicRows::divergence(const List<vec4>& phi, List<scalar>& div) const
 void monolithicRows::pressureGradient(const List<vec4>& phi, List<vec4>& gp) const
 {
     gp.resize(cloud_->n());
-    const view v{*list_, *B_, cloud_->x.data(), phi.data()};
+    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data()};
     parallelFor(cloud_->n(), [&](label b, label e) { gradientRange(v, b, e, gp.data()); });
     solidGradient(phi, gp);
 }
