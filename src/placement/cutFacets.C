@@ -146,7 +146,6 @@ triSurface cutFacets(const triSurface& surface, const List<const triSurface*>& o
         for (const facet& piece : cut.pieces())
             result.add(piece[0], piece[1], piece[2], surface.patch[t]);
     }
-    result.weld(1e-3 * tolerance);
     return result;
 }
 
