@@ -20,6 +20,7 @@ struct reversal
     vector low, high;                               // box of the zone
     std::function<vector(const vector&)> velocity;  // times cos(2 pi t): displacement ~ 1/(2 pi)
     vector shift = vector::Zero();                  // of the lattice
+    triSurface walls;                               // patch walls, may be empty
 };
 
 struct outcome
@@ -48,6 +49,7 @@ outcome run(const reversal& r, int cycles, int stepsPerCycle)
         text += name + " { type open; p 0; }\n";
     }
     f.points("openSites.hdf", sites);
+    if (!r.walls.empty()) f.surface("walls", r.walls);
     const auto inZone = [&](const vector& x) { return r.column(x) && r.depth(x) <= 0; };
     List<vector> all = lattice(dx, r.low - margin, r.high + margin, inZone, 3, r.shift);
     all.insert(all.end(), beyond.begin(), beyond.end());
@@ -201,6 +203,29 @@ reversal cylinderScene()
     return r;
 }
 
+// A duct between two walls that end at an oblique face; the other two sides are symmetry planes
+reversal ductScene()
+{
+    reversal r;
+    r.low = {0, 0, 0}, r.high = {12, 12, 22};
+    r.column = [](const vector& x) { return x[0] > 0 && x[0] < 12 && x[1] > 0 && x[1] < 12; };
+    const scalar c = 1 / std::sqrt(1.25);
+    r.depth = [=](const vector& x) { return std::max(-x[2], (x[2] - 16 - 0.5 * x[0]) * c); };
+    r.open["top"] = sheet({0, 0, 16}, {12, 0, 6}, {0, 12, 0}, 4);
+    r.open["bottom"] = sheet({0, 0, 0}, {0, 12, 0}, {12, 0, 0}, 4);
+    r.walls = sheet({0, 0, 0}, {0, 0, 16}, {0, 12, 0}, 4);
+    r.walls.append(sheet({12, 0, 0}, {0, 12, 0}, {0, 0, 22}, 4));
+    r.otherPatches =
+        "walls { type wall; representation mirror; }"
+        "y0 { type symmetryPlane; point (0 0 0); normal (0 -1 0); }"
+        "y1 { type symmetryPlane; point (0 12 0); normal (0 1 0); }";
+    // no slip
+    r.velocity = [](const vector& x) -> vector {
+        return {0, 0, 2 * M_PI * 3.5 * x[0] * (12 - x[0]) / 36};
+    };
+    return r;
+}
+
 reversal uniform(reversal r, const vector& displacement)
 {
     r.velocity = [=](const vector&) -> vector { return 2 * M_PI * displacement; };
@@ -243,4 +268,9 @@ TEST_CASE("ten reversals through a dome in a quarter model")
 TEST_CASE("ten reversals across a cylinder with lids")
 {
     check(tenReversals(cylinderScene(), {2, 0, -1.5}));
+}
+
+TEST_CASE("ten reversals between walls with no slip, through an oblique face")
+{
+    check(run(ductScene(), 5, 60));
 }
