@@ -104,6 +104,11 @@ void boundary::setFlags(particleCloud& cloud, const List<vector>& weight) const
     for (const openFace& face : content_->openFaces) face.setFlags(cloud, weight);
 }
 
+void boundary::setOpenVelocity(particleCloud& cloud) const
+{
+    for (const openFace& face : content_->openFaces) face.followInside(cloud);
+}
+
 void boundary::updateGhosts(particleCloud& cloud) const
 {
     cloud.clearGhosts();

@@ -20,7 +20,7 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
       p_(Function1::New("p", dict, caseFolder)),
       spotGrid_(1.5 * cloud.dx)
 {
-    const scalar reach = depth_ + 2 * dx_;
+    const scalar reach = depth_ + 3 * dx_;
     if (dict.chooseOrDefault("surface", {"triSurface", "plane"}, "triSurface") == "plane")
         surface_ =
             patchSurface::plane(dict.get<vector>("point"), dict.get<vector>("normal"), reach);
@@ -47,6 +47,42 @@ void openFace::setFlags(particleCloud& cloud, const List<vector>& weight) const
             if (!weight.empty()) cloud.pGiven[i] += f.depth * f.normal.dot(weight[cloud.zone[i]]);
         }
     });
+}
+
+// The means of both sides are made equal, over the region in which particles are counted; what differs
+// from the mean, a vortex or a layer at a wall, is left to the strip's own motion
+void openFace::followInside(particleCloud& cloud) const
+{
+    List<surfaceFoot> feet(cloud.n());
+    parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
+        for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
+            if (!surface_->surelyFar(cloud.x[i].xyz())) feet[i] = surface_->find(cloud.x[i].xyz());
+    });
+    pointGrid all(region_);
+    List<label> index;
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (feet[i].found && std::abs(feet[i].depth) < depth_)
+            all.add(feet[i].foot), index.push_back(i);
+    List<vector> change(index.size(), vector::Zero());
+    parallelFor(
+        label(index.size()),
+        [&](label begin, label end) {
+            for (label m = begin; m < end; ++m)
+            {
+                if (feet[index[m]].depth <= 0) continue;
+                vector sum[2] = {vector::Zero(), vector::Zero()};
+                scalar weights[2] = {0, 0};
+                all.within(all[m], region_, [&](label k, scalar r) {
+                    const bool inside = feet[index[k]].depth <= 0;
+                    const scalar w = weight(r / region_);
+                    sum[inside] += w * cloud.Up[index[k]].xyz(), weights[inside] += w;
+                });
+                if (weights[1] > 0) change[m] = sum[1] / weights[1] - sum[0] / weights[0];
+            }
+        },
+        64);
+    for (size_t m = 0; m < index.size(); ++m)
+        cloud.Up[index[m]].setXyz(cloud.Up[index[m]].xyz() + change[m]);
 }
 
 bool openFace::near(const vector& x) const

@@ -12,8 +12,8 @@ namespace
 {
 
 constexpr scalar closest = 0.75;  // [dx] no particle is put nearer than this to another one
-constexpr scalar missingHere = 0.25, missingAround = 0.75;  // particles, see openFace.H
-constexpr scalar widest = 1.4;    // [dx] a hole of this radius is filled even if none is missing
+constexpr scalar missingHere = 0.25, missingAround = 0.5;  // particles, see openFace.H
+constexpr scalar widest = 1.4;  // [dx] a hole of this radius is filled even if none is missing
 
 }  // namespace
 
@@ -27,7 +27,10 @@ struct openFace::census
     pointGrid entered;    // feet of those that came in through the surface in this step
     List<scalar> beyond;  // how far they have come
 
-    census(const particleCloud& c, scalar region) : cloud(c), feet(region), particles(1.5 * c.dx), entered(region) {}
+    census(const particleCloud& c, scalar region)
+        : cloud(c), feet(region), particles(1.5 * c.dx), entered(region)
+    {
+    }
 
     // share(j, weight) for the fluid of a zone within 1.5 dx of x; weights of sum one
     template <class Share>
@@ -72,10 +75,8 @@ openFace::census openFace::count(const particleCloud& cloud, const List<surfaceF
         if (!f.found || f.depth < -1.5 * dx_) continue;
         c.particles.add(cloud.x[i].xyz()), c.index.push_back(i);
         if (!cloud.isFluid(i)) continue;
-        if (f.depth > 0)
-            c.feet.add(f.foot);
-        else if (cloud.pFixed[i])
-            c.entered.add(f.foot), c.beyond.push_back(-f.depth);
+        if (f.depth > 0) c.feet.add(f.foot);
+        else if (cloud.pFixed[i]) c.entered.add(f.foot), c.beyond.push_back(-f.depth);
     }
     return c;
 }
@@ -87,8 +88,7 @@ List<label> openFace::choose(const census& c) const
     using candidate = std::tuple<scalar, label, scalar>;  // misfit, spot, its hole at that time
     std::priority_queue<candidate, List<candidate>, std::greater<>> queue;
     List<scalar> hole(spots_.size());
-    const auto offer = [&](label k)
-    {
+    const auto offer = [&](label k) {
         if (hole[k] >= closest * dx_) queue.push({std::abs(hole[k] - dx_), k, hole[k]});
     };
     for (label k = 0; k < label(spots_.size()); ++k)
@@ -96,15 +96,13 @@ List<label> openFace::choose(const census& c) const
 
     List<label> chosen;
     pointGrid addedFeet(region_);
-    const auto missing = [&](const spot& at, scalar full, scalar radius)
-    {
+    const auto missing = [&](const spot& at, scalar full, scalar radius) {
         const auto subtract = [&](label, scalar r) { full -= weight(r / radius); };
         c.feet.within(at.foot, radius, subtract);
         addedFeet.within(at.foot, radius, subtract);
         return full;
     };
-    const auto flowsOut = [&](const spot& at)
-    {
+    const auto flowsOut = [&](const spot& at) {
         scalar out = 0;
         c.around(at.x, at.zone,
                  [&](label j, scalar w) { out += w * c.cloud.Up[j].xyz().dot(at.normal); });
@@ -120,11 +118,9 @@ List<label> openFace::choose(const census& c) const
                             missing(at, at.fullRegion, region_) >= missingAround && !flowsOut(at);
         if (!wanted && hole[k] < widest * dx_) continue;
         addedFeet.add(at.foot), chosen.push_back(k);
-        spotGrid_.within(at.x, 1.5 * dx_,
-                         [&](label other, scalar r)
-                         {
-                             if (r < hole[other]) hole[other] = r, offer(other);
-                         });
+        spotGrid_.within(at.x, 1.5 * dx_, [&](label other, scalar r) {
+            if (r < hole[other]) hole[other] = r, offer(other);
+        });
     }
     return chosen;
 }
@@ -134,9 +130,9 @@ List<label> openFace::choose(const census& c) const
 scalar openFace::lag(const census& c, const spot& at) const
 {
     scalar sum = 0, weights = 0;
-    c.entered.within(at.foot, near_,
-                     [&](label k, scalar r)
-                     { sum += weight(r / near_) * c.beyond[k], weights += weight(r / near_); });
+    c.entered.within(at.foot, near_, [&](label k, scalar r) {
+        sum += weight(r / near_) * c.beyond[k], weights += weight(r / near_);
+    });
     return weights > 0 ? sum / weights : 0;
 }
 

@@ -32,8 +32,9 @@ List<vector> samplesAround(const List<vector>& sites, scalar dx, int nDims)
                 for (int k = nDims == 3 ? -2 : 0; k <= (nDims == 3 ? 2 : 0); ++k)
                     cells.insert({int(std::floor(x[0] / dx)) + i, int(std::floor(x[1] / dx)) + j,
                                   nDims == 3 ? int(std::floor(x[2] / dx)) + k : 0});
-    const vector step = nDims == 3 ? vector(0.8191725133961645, 0.6710436067037893, 0.5497004779019703)
-                                   : vector(0.7548776662466927, 0.5698402909980532, 0);
+    const vector step = nDims == 3
+                            ? vector(0.8191725133961645, 0.6710436067037893, 0.5497004779019703)
+                            : vector(0.7548776662466927, 0.5698402909980532, 0);
     const int perCell = nDims == 3 ? perAxis * perAxis * perAxis : perAxis * perAxis;
     List<vector> points;
     vector inCell(0.5, 0.5, nDims == 3 ? 0.5 : 0);

@@ -209,6 +209,7 @@ void monolithic::advance(scalar t, scalar dt, int depth)
     accept(z, dt);
     system_.hydrostatic().giveBack(cloud);
 
+    c_.walls->setOpenVelocity(cloud);
     // Shift first, with the neighbours at hand, then move: x^{n+1} = x^n + dt u^{n+1}
     shifting_.shift(cloud, c_.list, c_.correction, dt,
                     [&](const vector& x) { return c_.walls->nearOpen(x); });
