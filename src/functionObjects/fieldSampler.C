@@ -12,6 +12,17 @@ namespace
 
 constexpr scalar none = std::numeric_limits<scalar>::quiet_NaN();
 
+// The particles lie all around the point: their weighted mean is there, and hardly a weight negative
+bool interpolates(const List<pointSampler::contribution>& weights, const List<vector>& positions,
+                  const vector& point, scalar dx)
+{
+    scalar size = 0;
+    vector mean = vector::Zero();
+    for (const auto& c : weights)
+        size += std::abs(c.weight), mean += c.weight * positions[size_t(c.index)];
+    return size < 1.2 && (mean - point).norm() < 0.1 * dx;
+}
+
 }  // namespace
 
 fieldSampler::fieldSampler(const dictionary& dict, const fsiCase& c)
@@ -55,8 +66,11 @@ void fieldSampler::update(const List<vector>& points)
             for (label k = begin; k < end; ++k)
             {
                 const pointSampler::neighbour nearest = sampler.nearest(points[k]);
-                if (nearest.index >= 0 && nearest.distance <= case_.cloud.dx)
-                    weights_[k] = sampler.weights(points[k]);
+                if (nearest.index < 0 || nearest.distance > 1.5 * case_.cloud.dx) continue;
+                List<pointSampler::contribution> w = sampler.weights(points[k]);
+                if (nearest.distance <= case_.cloud.dx ||
+                    interpolates(w, positions, points[k], case_.cloud.dx))
+                    weights_[k] = std::move(w);
             }
         },
         64);

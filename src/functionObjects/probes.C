@@ -4,7 +4,7 @@
 //     chamber { type probes; fields (p U); probeLocations ((0 0 10e-3)); zones (chamber); }
 //
 // fields: U p (default) or what a model has registered.  zones, radius: see fieldSampler.H.  A probe
-// with no particle nearer than dx reads NaN.
+// outside them reads NaN.
 #include "functionObject.H"
 
 #include "dataFile.H"

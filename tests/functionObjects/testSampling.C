@@ -56,6 +56,27 @@ TEST_CASE("probes: exact on linear fields, NaN away from particles, OpenFOAM's l
     CHECK(text.find("Time\n") != word::npos);
 }
 
+TEST_CASE("a probe in a hole between particles has a value, one as far outside them has none")
+{
+    testCase t;
+    const vector centre = vector::Constant(4.5e-3);
+    for (int k = 0; k < 8; ++k)  // a lattice of 1.1 dx without its middle
+        for (int j = 0; j < 8; ++j)
+            for (int i = 0; i < 8; ++i)
+                if (const vector x = t.dx * vector(i - 4, j - 4, k - 4); x.norm() > 0.1 * t.dx)
+                    t.add("chamber", "fluid", centre + 1.1 * x);
+    t.functions =
+        "here { type probes; fields (p); probeLocations ((4.5e-3 4.5e-3 4.5e-3) (4.5e-3 4.5e-3 "
+        "8.9e-3)); radius 2.3; }";
+    auto r = t.start();
+    setLinear(r.c->cloud);
+    functionObjectList f(*r.c);
+    f.start();
+    const auto p = t.rows("here/0/p");
+    CHECK(p[0][1] == relative(pressureAt(centre), 1e-6));
+    CHECK(std::isnan(p[0][2]));
+}
+
 TEST_CASE("a probe on symmetry planes sees the images: no flow through the planes")
 {
     testCase t;
