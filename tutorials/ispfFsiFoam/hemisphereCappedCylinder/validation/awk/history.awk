@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the histories say.  Variables: period, top (time of the full stroke within it) [s]; stroke [m3];
 # rest, the cavity's volume, and wall, the solid's [m3].
-# Input: diameter.dat (time, dD/D), volume.dat (time, swept, cavity, wall), pressure.dat (time, p/G)
+# Input: diameter.dat (time, dD/D), volume.dat (time, swept, cavity, wall, control), pressure.dat (time, p/G)
 function abs(a) { return a < 0 ? -a : a }
 function say(name, value) { printf "%s %.6g\n", name, value }
 FNR == 1 { file = FILENAME; sub(/.*\//, "", file); sub(/\.dat$/, "", file) }
@@ -43,9 +43,12 @@ END {
         say("syringeDiameter", 16*sqrt(largest("volume", 2)/stroke))
         if (rest) say("volumeIncrease", 100*largest("volume", 3)/rest)
         say("volumeDefectPeak", 100*(row["volume", k, 3] - row["volume", k, 2])/stroke)
+        say("controlPeak", 100*row["volume", k, 5]/stroke)
         if (wall) say("wallVolumeChange", 100*largest("volume", 4)/wall)
     }
-    if (k = rowAt("volume", period))
+    if (k = rowAt("volume", period)) {
         say("volumeDefectEnd", 100*(row["volume", k, 3] - row["volume", k, 2])/stroke)
+        say("controlEnd", 100*row["volume", k, 5]/stroke)
+    }
     if (k = rowAt("pressure", top)) say("pressurePeak", row["pressure", k, 2])
 }

@@ -13,7 +13,7 @@ headings = "'minimum stroke (BDC)' 'half stroke forward' 'maximum stroke (TDC)' 
 set multiplot layout 2, 2
 do for [k=1:4] {
     name = word("BDC midForward TDC midReturn", k)
-    files = system("cd '".folder."' && ls profile-".name."*.dat 2> /dev/null | sort")
+    files = system("cd '".folder."' && ls profile-".name."*.dat 2> /dev/null | sort | tr '\\n' ' '")
     set title word(headings, k)
     if (words(files) == 0) {
         set label 1 "not reached" at graph 0.5, 0.5 center
@@ -21,11 +21,12 @@ do for [k=1:4] {
         unset label 1
     } else {
         label(f) = system("echo ".f."| sed 's/profile-//; s/.dat$//; s/.DC./stop + /; s/mid.*/ /; s/[0-9]$/& s/'")
-        exists_(f) = other ne "" && system("test -e '".other."/".f."' && echo y") eq "y"
-        plot for [i=1:words(files)] folder."/".word(files, i) using 1:2 with lines linestyle i \
+        # a curve that the other run lacks is drawn over itself
+        dotted(f) = (other ne "" && system("test -e '".other."/".f."' && echo y") eq "y" ? other : folder)."/".f
+        plot for [i=1:words(files)] dotted(word(files, i)) using 1:2 with lines linestyle i \
+                dashtype 3 notitle, \
+            for [i=1:words(files)] folder."/".word(files, i) using 1:2 with lines linestyle i \
             title words(files) > 1 ? label(word(files, i)) : "", \
-            for [i=1:words(files)] (exists_(word(files, i)) ? other."/".word(files, i) : "/dev/null") \
-                using 1:2 with lines linestyle i dashtype 3 notitle, \
             0 with lines linestyle 9 notitle
     }
 }
