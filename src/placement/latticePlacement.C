@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "latticePoints.H"
 #include "placedParticles.H"
 
 #include "cellList.H"
@@ -10,13 +11,6 @@ namespace ispf
 
 namespace
 {
-
-struct latticePoint
-{
-    vector x;
-    label zone = -1;
-    exteriorPoint outside;
-};
 
 // All lattice points of one plane that are something
 void sweepPlane(const zoneGeometry& geometry, const exterior& outside, const vector& first,
@@ -46,6 +40,7 @@ void add(placedParticles& placed, const latticePoint& p)
         placed.rigidPatch.push_back(p.outside.patch);
         return;
     }
+    if (p.zone < 0 && p.outside.type != exteriorPoint::kind::strip) return;
     placed.x.push_back(p.x);
     placed.zone.push_back(p.zone >= 0 ? p.zone : p.outside.zone);
     placed.strip.push_back(p.zone >= 0 ? -1 : p.outside.patch);
@@ -116,9 +111,12 @@ placedParticles placeOnLattice(const zoneGeometry& geometry, const exterior& out
                 sweepPlane(geometry, outside, first, n, k, planes[k]);
         },
         1);
+    List<latticePoint> points;
+    for (const auto& plane : planes) points.insert(points.end(), plane.begin(), plane.end());
+    planes.clear();
+    matchCounts(points, geometry);
     placedParticles placed;
-    for (const auto& plane : planes)
-        for (const latticePoint& p : plane) add(placed, p);
+    for (const latticePoint& p : points) add(placed, p);
     sortByPhase(placed, geometry.zones());
     dropUnseenRigid(placed, geometry, support);
     return placed;

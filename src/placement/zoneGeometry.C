@@ -92,7 +92,13 @@ scalar zoneGeometry::beyondSymmetry(const vector& x) const
 label zoneGeometry::zoneAt(const vector& x) const
 {
     label zone = -1;
-    return beyondSymmetry(x) < 0 && inBodies(x, zone) ? zone : -1;
+    if (beyondSymmetry(x) >= 0 || inBodies(x, zone)) return zone;
+    // Faces that touch are meshed differently: x may lie in the sliver between them
+    scalar least = probe * dx_;
+    for (size_t z = 0; z < contact_.size(); ++z)
+        if (const surfacePoint q = contact_[z].nearest(x, least); q.found && q.distance < least)
+            zone = label(z), least = q.distance;
+    return zone;
 }
 
 word zoneGeometry::patchOf(label zone, const word& asked, label other) const
@@ -147,6 +153,12 @@ void zoneGeometry::classify()
         }
     }
     for (triSurface& s : boundary_) s.weld(tiny);
+    for (const triSurface& s : boundary_)
+        contact_.emplace_back(s.subset([&](label t) {
+            for (const zoneInfo& z : zones_)
+                if (s.patchNames[s.patch[t]] == towards(z.name)) return true;
+            return false;
+        }));
 }
 
 void zoneGeometry::gatherPatches()
