@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "halfSpace.H"
 #include "patchSurface.H"
 
 #include <algorithm>
@@ -82,6 +83,13 @@ public:
     triangulatedSurface(triSurface surface, const imageGroup& group, scalar reach, bool twoSided)
         : reach_(reach), twoSided_(twoSided)
     {
+        // what lies beyond symmetry planes and cyclic sides comes again as an image
+        for (const auto& [point, normal] : group.planes())
+            surface = clipped(surface, {point, normal});
+        if (surface.empty())
+            throw fatalError("The surface of patch " + join(surface.patchNames, " and ") +
+                             " lies beyond the symmetry planes and cyclic sides, where there is no "
+                             "fluid. See their points and normals in constant/boundary");
         area_.assign(surface.patchNames.size(), vector::Zero());
         for (label t = 0; t < surface.size(); ++t) area_[surface.patch[t]] += surface.areaVector(t);
         surface.weld(1e-4 * reach);

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A plunger moved by a table: what it sweeps, and what it drives out of a channel
+#include "boundary/scene.H"
+#include "caseOnDisk.H"
+#include "relative.H"
+
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace scene;
+
+namespace
+{
+
+// A quarter of a disc; the fluid is above it
+triSurface quarterDisc(scalar radius)
+{
+    return parametric(
+        [=](scalar s, scalar t) {
+            return vector(radius * t * std::cos(0.5 * M_PI * s),
+                          radius * t * std::sin(0.5 * M_PI * s), 0);
+        },
+        16, 4,
+        [](const vector&) -> vector {
+            return {0, 0, -1};
+        });
+}
+
+}  // namespace
+
+TEST_CASE("the volume a plunger sweeps along an oblique path is exact, also in pieces and back")
+{
+    const scalar radius = 3;
+    const triSurface disc = quarterDisc(radius);
+    folder files;
+    files.surface("plunger", disc);
+    particleCloud cloud = fluid({{1, 1, 1}}, 1);
+    boundary walls(files.path,
+                   dictionary::fromString(
+                       "plunger { type wall; representation mirror; motion { direction (1 2 2);"
+                       "displacement table ((0 0) (1 0.6) (2 0.9) (3 -0.3)); } }"),
+                   cloud, 2.6);
+    const scalar perMetre = disc.area() * 2 / 3;  // normal component of the direction
+    scalar t = 0;
+    const auto to = [&](scalar end, int steps) {
+        for (int k = 0; k < steps; ++k)
+        {
+            const scalar next = t + (end - t) / (steps - k);
+            walls.setStep(t, next);
+            walls.exchange(cloud, next);
+            t = next;
+        }
+        return walls.balance()[0].swept;
+    };
+    CHECK(to(0.5, 7) == relative(0.3 * perMetre, 1e-12));
+    CHECK(to(1.7, 5) == relative(0.81 * perMetre, 1e-12));
+    CHECK(to(3, 11) == relative(-0.3 * perMetre, 1e-12));
+    walls.setStep(0.2, 0.9);
+    CHECK(walls.maxWallSpeed() == relative(0.6, 1e-12));
+}
+
+namespace
+{
+
+constexpr int nx = 24, ny = 12;
+constexpr scalar dx = 1e-3, length = nx * dx, height = ny * dx, strip = 2 * dx;
+
+void placeChannel(caseOnDisk& files)
+{
+    files.fill(nx, ny, dx);
+    particleTable& t = files.particles();
+    particleTable sites, rigid;
+    for (scalar depth = 0.5 * dx; depth < strip; depth += dx)
+        for (int j = 0; j < ny; ++j) sites.x.emplace_back(length + depth, (j + 0.5) * dx, 0);
+    for (int k = 0; k < 3; ++k)
+        for (int j = 0; j < ny; ++j) rigid.x.emplace_back(-(k + 0.5) * dx, (j + 0.5) * dx, 0);
+    for (const vector& x : sites.x)
+    {
+        t.x.push_back(x), t.vectors["U"].push_back(vector::Zero()), t.scalars["p"].push_back(0);
+        t.integers["id"].push_back(globalId(t.x.size()) - 1), t.integers["zone"].push_back(0);
+    }
+    files.write();
+    sites.attributes["patches"] = "right", rigid.attributes["patches"] = "plunger";
+    sites.integers["patch"].assign(sites.x.size(), 0);
+    rigid.integers["patch"].assign(rigid.x.size(), 0);
+    writeParticles(sites, files.path() + "/constant/openSites.hdf");
+    writeParticles(rigid, files.path() + "/constant/wallParticles.hdf");
+    std::filesystem::create_directories(files.path() + "/constant/triSurface");
+    // taller than the channel: only what lies between its sides counts
+    writeSTL(sheet({0, -1e-2, -dx}, {0, 0, 2 * dx}, {0, height + 2e-2, 0}, 3),
+             files.path() + "/constant/triSurface/plunger.stl");
+}
+
+// Particles before the face, counted smoothly across it
+scalar inChannel(const particleCloud& cloud)
+{
+    scalar sum = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+        sum += std::clamp(0.5 - 0.5 * (cloud.x[i][0] - length) / dx, 0.0, 1.0);
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("what a plunger sweeps leaves the channel")
+{
+    for (const char* coupling : {"projection", "monolithic"})
+        for (const char* kind : {"mirror", "particles"})
+        {
+            CAPTURE(coupling);
+            CAPTURE(kind);
+            caseOnDisk files("plunger");
+            files.properties = "rho 1000; mu 0.05;";
+            files.solution = "coupling " + word(coupling) + ";";
+            files.control =
+                "startTime 0; endTime 100; deltaT 1; writeControl timeStep; writeInterval 1e6;";
+            files.boundary = "plunger { type wall; representation " + word(kind) +
+                             "; motion { direction (1 0 0); displacement table ((0 0) (0.1 0.0002) "
+                             "(0.6 0.0102) (0.7 0.0104) (2 0.0104)); } }"
+                             "bottom { type symmetryPlane; point (0 0 0); normal (0 -1 0); }"
+                             "top { type symmetryPlane; point (0 " +
+                             str(height, 17) +
+                             " 0); normal (0 1 0); }"
+                             "right { type open; surface plane; point (" +
+                             str(length, 17) + " 0 0); normal (1 0 0); p 0; }";
+            placeChannel(files);
+            capturedLog log;
+            Time time(files.path());
+            fsiCase c(time);
+            const auto scheme = couplingScheme::New(c);
+            const scalar before = inChannel(c.cloud);
+            const auto error = [&](label steps) {
+                runSteps(c, *scheme, 5e-3, steps);
+                const scalar swept = c.walls->balance()[0].swept / c.cloud.volume();
+                return (before - inChannel(c.cloud)) / swept - 1;
+            };
+            // on its way, ten spacings in, and after it has stopped
+            CHECK(std::abs(error(120)) < 0.002);
+            CHECK(std::abs(error(40)) < 0.005);
+            CHECK(c.walls->balance()[0].swept == relative(0.0104 * height, 1e-9));
+        }
+}
