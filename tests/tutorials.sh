@@ -6,6 +6,7 @@ set -uo pipefail
 mkdir -p "$scratch/tutorials/ispfFsiFoam"
 ln -s "$cases/../../bin" "$cases/../../etc" "$scratch/"
 run() { # tutorial picture [file entry value]...
+    rm -rf "${scratch:?}/tutorials/ispfFsiFoam/$1"
     cp -r "$cases/../../tutorials/ispfFsiFoam/$1" "$scratch/tutorials/ispfFsiFoam/"
     cd "$scratch/tutorials/ispfFsiFoam/$1" || exit 1
     local name=$1 picture=$2; shift 2
@@ -20,6 +21,9 @@ number() { awk -v key="$1" 'at = index($0, key) { split(substr($0, at + length(k
 
 run taylorGreen taylorGreen
 below "Taylor-Green [%]" "$(number 'largest difference ')" 1
+run taylorGreen taylorGreen system/sphSolution coupling monolithic
+below "Taylor-Green, monolithic [%]" "$(number 'largest difference ')" 1
+grep -q "^coupling: monolithic" log.ispfFsiFoam || fail "not monolithic"
 run poiseuille poiseuille
 awk '$1 + 0 > 0 { ++n; if ($4*$4 > 0.7^2) exit 1 } END { exit n != 5 }' comparison/table.txt ||
     fail "Poiseuille: $(cat comparison/table.txt)"

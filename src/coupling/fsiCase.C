@@ -23,6 +23,12 @@ fsiCase::fsiCase(Time& t) : time(t)
     readStructure();
     coupling = solution.chooseOrDefault("coupling", {"projection", "monolithic"},
                                         structure ? "monolithic" : "projection");
+    // what the other scheme reads may stay: one word changes the coupling
+    for (const char* name : {"projection", "solvers", "monolithic"})
+        if (const dictionary* d = solution.findDict(name);
+            d && (coupling == "monolithic") != (word(name) == "monolithic"))
+            d->markAllRead();
+    if (coupling == "monolithic") schemes.found("divergence"), schemes.found("gradient");
 }
 
 void fsiCase::readProperties()

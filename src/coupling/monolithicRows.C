@@ -15,6 +15,7 @@ struct view
     const vec4* x;
     const vec4* phi;
     const phaseType* phase;
+    const scalar* c;  // laplacianScale
 
     ISPF_INLINE std::int64_t first(label i) const { return list.start[i]; }
     ISPF_INLINE std::int64_t mid(label i) const { return list.mid[i]; }
@@ -44,7 +45,7 @@ ISPF_HOT void firstRange(const view& v, label begin, label end, vec4* gp, vec4* 
         gs[i] = vec4::from(gradient, v.phi[i].s[3]);
         sums.add(v.list, v.x, v.phi, i, v.mid(i), v.last(i));
         gp[i] = vec4::from(gradient, sums.divergence(v.B.all[i]));
-        lap[i].s = sums.lap + wallShare(v, i);
+        lap[i].s = v.c[i] * (sums.lap + wallShare(v, i));
     }
 }
 
@@ -76,7 +77,7 @@ ISPF_HOT void viscousRange(const view& v, label begin, label end, vec4* out)
         simd4 sum = {};
         for (std::int64_t k = v.first(i); k < v.last(i); ++k)
             sum += v.list.F[k] * v.phi[v.list.index[k]].s;
-        out[i].s = sum;
+        out[i].s = v.c[i] * sum;
     }
 }
 
@@ -113,13 +114,16 @@ void monolithicRows::setup(const particleCloud& cloud, const neighbourList& list
 {
     cloud_ = &cloud, list_ = &list, B_ = &B;
     sumF_.resize(cloud.n());
+    scale_ = sphc::laplacianScale({cloud, list, B});
+    for (label i = 0; i < cloud.n(); ++i)
+        if (cloud.pFixed[i]) scale_[i] = 1;  // a strip ends: its support is truncated
     parallelFor(cloud.n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
             scalar sum = 0;
             for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
                 sum += cloud.phase[list.index[k]] == phaseType::rigid ? 2 * list.F[k] : list.F[k];
-            sumF_[i] = sum;
+            sumF_[i] = scale_[i] * sum;
         }
     });
 }
@@ -171,7 +175,7 @@ void monolithicRows::firstPass(const List<vec4>& phi, List<vec4>& gp, List<vec4>
 {
     const label n = cloud_->n();
     gp.resize(n), lap.resize(n), gs.resize(cloud_->nAll());
-    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data()};
+    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data(), scale_.data()};
     parallelFor(n,
                 [&](label b, label e) { firstRange(v, b, e, gp.data(), lap.data(), gs.data()); });
     solidGradient(phi, gp);
@@ -181,7 +185,7 @@ void monolithicRows::firstPass(const List<vec4>& phi, List<vec4>& gp, List<vec4>
 void monolithicRows::secondPass(const List<vec4>& gs, List<scalar>& cp) const
 {
     cp.resize(cloud_->n());
-    const view v{*list_, *B_, cloud_->x.data(), gs.data(), cloud_->phase.data()};
+    const view v{*list_, *B_, cloud_->x.data(), gs.data(), cloud_->phase.data(), scale_.data()};
     parallelFor(cloud_->n(), [&](label b, label e) {
         secondRange(v, pairTau_.data(), b, e, gs.data(), cp.data());
     });
@@ -190,14 +194,14 @@ void monolithicRows::secondPass(const List<vec4>& gs, List<scalar>& cp) const
 void monolithicRows::viscousNeighbours(const List<vec4>& phi, List<vec4>& sum) const
 {
     sum.resize(cloud_->n());
-    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data()};
+    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data(), scale_.data()};
     parallelFor(cloud_->n(), [&](label b, label e) { viscousRange(v, b, e, sum.data()); });
 }
 
 void monolithicRows::divergence(const List<vec4>& phi, List<scalar>& div) const
 {
     div.resize(cloud_->n());
-    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data()};
+    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data(), scale_.data()};
     parallelFor(cloud_->n(), [&](label b, label e) { divergenceRange(v, b, e, div.data()); });
     solidDivergence(phi, [&](label i, scalar d) { div[i] = d; });
 }
@@ -205,7 +209,7 @@ void monolithicRows::divergence(const List<vec4>& phi, List<scalar>& div) const
 void monolithicRows::pressureGradient(const List<vec4>& phi, List<vec4>& gp) const
 {
     gp.resize(cloud_->n());
-    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data()};
+    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data(), scale_.data()};
     parallelFor(cloud_->n(), [&](label b, label e) { gradientRange(v, b, e, gp.data()); });
     solidGradient(phi, gp);
 }

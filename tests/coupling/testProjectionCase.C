@@ -53,6 +53,43 @@ TEST_CASE("fluid at rest under gravity stays at rest, with the pressure of its d
     CHECK(log.contains("Courant Number mean: 0 max: 0"));
 }
 
+TEST_CASE("fluid stays at rest between rigid and between mirror walls, with both couplings")
+{
+    for (const word coupling : {"projection", "monolithic"})
+        for (const word representation : {"particles", "mirror"})
+        {
+            CAPTURE(coupling);
+            CAPTURE(representation);
+            caseOnDisk files("restInBox");
+            files.fill(10, 20, 0.02);
+            disorder(files.particles(), 0.004);
+            const auto plane = [&](const word& name, const word& point, const word& normal) {
+                return name + " { type wall; surface plane; representation " + representation +
+                       "; point " + point + "; normal " + normal + "; }\n";
+            };
+            files.boundary =
+                plane("left", "(0 0 0)", "(-1 0 0)") + plane("right", "(0.2 0 0)", "(1 0 0)") +
+                plane("bottom", "(0 0 0)", "(0 -1 0)") + plane("top", "(0 0.4 0)", "(0 1 0)");
+            files.solution = "coupling " + coupling + ";";
+            files.g = "(1 -9.81 0)";
+            for (size_t i = 0; i < files.particles().size(); ++i)
+                files.particles().scalars["p"][i] =
+                    1000 * files.particles().x[i].dot(vector(1, -9.81, 0));
+            files.write();
+            capturedLog log;
+            Time time(files.path());
+            fsiCase c(time);
+            const auto scheme = couplingScheme::New(c);
+            runSteps(c, *scheme, 0.01, 20);
+            for (label i = 0; i < c.cloud.n(); ++i)
+            {
+                CHECK(c.cloud.Up[i].xyz().norm() < 1e-12);
+                const scalar p = 1000 * c.cloud.x[i].xyz().dot(vector(1, -9.81, 0));
+                CHECK(std::abs(c.cloud.Up[i][3] - p) < 1e-8 * 1000 * 9.81);
+            }
+        }
+}
+
 TEST_CASE("fluid below an open face stays at rest under gravity, with both couplings")
 {
     for (const word coupling : {"projection", "monolithic"})
