@@ -29,23 +29,12 @@ struct boundary::content
     label putBack(particleCloud& cloud) const;
 };
 
-namespace
-{
-
-vector nonZero(const dictionary& dict, const word& key)
-{
-    const vector v = dict.get<vector>(key);
-    if (v.norm() == 0) dict.fail(key, key + " must not be zero");
-    return v;
-}
-
-}  // namespace
-
 void boundary::content::addPatch(const word& name, const dictionary& dict, const word& caseFolder)
 {
     const word type = dict.choose("type", {"wall", "symmetryPlane", "cyclic", "open"});
     const label index = label(balance.size());
     balance.push_back({name});
+    for (const word key : {"point", "normal"}) dict.found(key);  // generateParticles asks for them
     if (type == "symmetryPlane")
         group.addSymmetryPlane(name, dict.get<vector>("point"), nonZero(dict, "normal"));
     else if (type == "cyclic")
@@ -88,6 +77,7 @@ boundary::boundary(const word& caseFolder, const dictionary& patches, const part
     c.visibility.find(c.walls, support);
     c.mirror.find(c.walls, support);
     c.addOpenFaces(caseFolder, patches, cloud);
+    patches.checkAllRead();
 }
 
 boundary::~boundary() = default;

@@ -127,6 +127,28 @@ void imageGroup::checkInside(const particleCloud& cloud) const
                              ". Give the plane a normal that points out of the particles, and a "
                              "cyclic pair the point on its first plane");
         }
+    // the sides of a cyclic pair follow each other: between them lies one spacing
+    for (size_t k = 0; k + 1 < sides_.size(); ++k)
+    {
+        const side &a = sides_[k], &b = sides_[k + 1];
+        if (!a.cyclic || a.patch != b.patch) continue;
+        scalar gap[2] = {-std::numeric_limits<scalar>::infinity(), 0};
+        gap[1] = gap[0];
+        for (label i = 0; i < cloud.n(); ++i)
+            for (int s = 0; s < 2; ++s)
+            {
+                const side& at = s ? b : a;
+                gap[s] = std::max(gap[s], (cloud.x[i].xyz() - at.point).dot(at.normal));
+            }
+        if (-gap[0] - gap[1] < 2 * cloud.dx) continue;
+        throw fatalError(
+            "The particles end " + str(-gap[0] / cloud.dx) +
+            " dx before the one side of "
+            "cyclic patch " +
+            a.patch + " and " + str(-gap[1] / cloud.dx) +
+            " dx before the other, where half a spacing each is right: what leaves one side "
+            "would enter a gap. Set point and separation to where the particles end");
+    }
 }
 
 // Box of the particles, drawn out to the planes they may yet reach

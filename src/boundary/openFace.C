@@ -22,8 +22,7 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
 {
     const scalar reach = depth_ + 3 * dx_;
     if (dict.chooseOrDefault("surface", {"triSurface", "plane"}, "triSurface") == "plane")
-        surface_ =
-            patchSurface::plane(dict.get<vector>("point"), dict.get<vector>("normal"), reach);
+        surface_ = patchSurface::plane(dict.get<vector>("point"), nonZero(dict, "normal"), reach);
     else surface_ = patchSurface::triangles(readPatch(caseFolder, name, dict), group, reach);
 }
 

@@ -166,6 +166,13 @@ std::unique_ptr<patchSurface> patchSurface::triangles(triSurface surface, const 
     return std::make_unique<triangulatedSurface>(std::move(surface), group, reach, twoSided);
 }
 
+vector nonZero(const dictionary& dict, const word& key)
+{
+    const vector v = dict.get<vector>(key);
+    if (!(v.norm() > 0)) dict.fail(key, key + " must not be zero");
+    return v;
+}
+
 triSurface readPatch(const word& caseFolder, const word& patch, const dictionary& dict)
 {
     const word path = caseFolder + "/constant/triSurface/" + patch + ".stl";
@@ -175,7 +182,12 @@ triSurface readPatch(const word& caseFolder, const word& patch, const dictionary
                              "'surface plane; point ...; normal ...;'",
                          dict.where("type"));
     triSurface s = readSTL(path);
-    if (s.empty()) throw fatalError("The surface " + path + " has no triangles");
+    const scalar size = s.bounds().diagonal();
+    if (s.empty() || !(s.area() > 1e-9 * size * size))
+        throw fatalError("The surface " + path + " of patch " + patch + " has " +
+                             (s.empty() ? "no triangles" : "triangles without an area") +
+                             ". Write it anew with generateParticles",
+                         dict.where("type"));
     s.patchNames = {patch};
     std::fill(s.patch.begin(), s.patch.end(), 0);
     return s;

@@ -14,10 +14,9 @@ wallMotion::wallMotion(const dictionary& patch, const word& caseFolder)
     if (steady == motion->found("displacement"))
         motion->fail(steady ? "velocity" : "displacement",
                      "motion wants either 'direction' and 'displacement', or 'velocity'");
-    direction_ = motion->get<vector>(steady ? "velocity" : "direction");
+    direction_ =
+        steady ? motion->get<vector>("velocity") : nonZero(*motion, "direction").normalized();
     if (steady) return;
-    if (direction_.norm() == 0) motion->fail("direction", "direction must not be zero");
-    direction_.normalize();
     displacement_ = Function1::New("displacement", *motion, caseFolder);
 }
 
@@ -47,9 +46,7 @@ wall wall::New(const word& name, const dictionary& dict, const word& caseFolder)
     if (w.twoSided)
         dict.fail("twoSided",
                   "a plane has no end and fluid on one side only; use surface triSurface");
-    w.point = dict.get<vector>("point"), w.normal = dict.get<vector>("normal");
-    if (w.normal.norm() == 0) dict.fail("normal", "normal must not be zero");
-    w.normal.normalize();
+    w.point = dict.get<vector>("point"), w.normal = nonZero(dict, "normal").normalized();
     if (std::abs(w.motion.slide().dot(w.normal)) > 1e-9 * w.motion.slide().norm())
         dict.fail("velocity",
                   "velocity must lie in the plane, as the surface stays where it is. "

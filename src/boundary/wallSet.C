@@ -14,6 +14,7 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
     support_ = support, nDims_ = cloud.nDims;
     if (empty()) return;
     makeBodies(caseFolder, patches, group, support + cloud.dx);
+    checkSides(patches, cloud);
     readRigid(caseFolder, patches);
     // what lies beyond symmetry planes and cyclic sides comes again as an image
     for (wall& w : walls_)
@@ -45,6 +46,36 @@ void wallSet::makeBodies(const word& caseFolder, const dictionary& patches, cons
     }
     if (!stillWalls.empty())
         bodies_.push_back({patchSurface::triangles(std::move(still), group, reach), stillWalls});
+}
+
+// Which side particles are on tells normals that point the wrong way, and surfaces in millimetres.  Where
+// a moving wall is now is not known yet.
+void wallSet::checkSides(const dictionary& patches, const particleCloud& cloud) const
+{
+    List<label> before(walls_.size(), 0), behind(walls_.size(), 0);
+    for (const body& b : bodies_)
+        for (label i = 0; i < cloud.n(); ++i)
+        {
+            const vector x = cloud.x[i].xyz() - offset(b);
+            if (b.surface->surelyFar(x)) continue;
+            const surfaceFoot f = b.surface->find(x);
+            if (!f.found || f.aside > 0) continue;
+            ++(f.depth < 0 ? before : behind)[b.walls[f.patch]];
+        }
+    for (size_t w = 0; w < walls_.size(); ++w)
+    {
+        const word& name = walls_[w].name;
+        if (walls_[w].motion.moves()) continue;
+        if (behind[w] > before[w])
+            patches.subDict(name).fail(
+                "type", "Patch " + name + ": " + std::to_string(behind[w]) +
+                            " particles are behind the wall and " + std::to_string(before[w]) +
+                            " before it. Its normals must point out of the fluid: turn them, or "
+                            "say 'twoSided yes;' of a sheet with fluid on both sides");
+        if (behind[w] + before[w] == 0)
+            warning("Patch " + name + ": no particle is within " + str(support_) +
+                    " m of this wall. Is its surface in metres?");
+    }
 }
 
 void wallSet::readRigid(const word& caseFolder, const dictionary& patches)
