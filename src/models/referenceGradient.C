@@ -24,22 +24,33 @@ ISPF_HOT void addOwn(const referenceNeighbours& pairs, const scalar* weight, con
     for (int a = 0; a < 3; ++a) S(a, 0) += c0[a], S(a, 1) += c1[a], S(a, 2) += c2[a];
 }
 
-// Sum of w (A_i + A_j)(X_j - X_i) over row i, A_j turned with the image
-ISPF_HOT void addForce(const referenceNeighbours& pairs, const structureReference& ref,
-                       const scalar* weight, const tensor* A, label i, vector& f)
+// Sum of w (A_i + A_j)(X_j - X_i) over the pairs of row i that are no images; A by columns, three each
+ISPF_HOT void ownForce(const referenceNeighbours& pairs, const scalar* weight, const vec4* X,
+                       const vec4* A, label i, simd4& f)
 {
-    for (std::int64_t k = pairs.start[i]; k < pairs.start[i + 1]; ++k)
+    simd4 sum = {}, arm = {};
+    const simd4 Xi = X[i].s;
+    for (std::int64_t k = pairs.start[i]; k < pairs.mid[i]; ++k)
     {
-        const label j = pairs.index[k], m = pairs.image[k];
-        const vector r = -weight[k] * pairs.separation(ref, i, k);
-        f += A[i] * r;
-        if (m == 0) f += A[j] * r;
-        else
-        {
-            const tensor& R = ref.images[m - 1].R;
-            f += R * (A[j] * (R.transpose() * r));
-        }
+        const label j = pairs.index[k];
+        const simd4 r = weight[k] * (X[j].s - Xi);
+        arm += r, sum += A[3 * j].s * r[0] + A[3 * j + 1].s * r[1] + A[3 * j + 2].s * r[2];
     }
+    f = sum + A[3 * i].s * arm[0] + A[3 * i + 1].s * arm[1] + A[3 * i + 2].s * arm[2];
+}
+
+// The same over images, A_j turned with them
+vector imageForce(const referenceNeighbours& pairs, const structureReference& ref,
+                  const scalar* weight, const List<tensor>& A, label i)
+{
+    vector f = vector::Zero();
+    for (std::int64_t k = pairs.mid[i]; k < pairs.start[i + 1]; ++k)
+    {
+        const tensor& R = ref.images[pairs.image[k] - 1].R;
+        const vector r = -weight[k] * pairs.separation(ref, i, k);
+        f += A[i] * r + R * (A[pairs.index[k]] * (R.transpose() * r));
+    }
+    return f;
 }
 
 }  // namespace
@@ -121,16 +132,21 @@ void referenceGradient::forces(const List<tensor>& P, List<vec4>& f) const
 {
     const label n = ref_.n();
     List<tensor> A(n);
-    for (label i = 0; i < n; ++i) A[i] = ref_.volume() * P[i] * B_[i];
+    List<vec4> columns(3 * n);
+    for (label i = 0; i < n; ++i)
+    {
+        A[i] = ref_.volume() * P[i] * B_[i];
+        for (int b = 0; b < 3; ++b) columns[3 * i + b] = vec4::from(A[i].col(b));
+    }
     f.resize(std::max<size_t>(f.size(), size_t(n)));
     parallelFor(
         n,
         [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
             {
-                vector sum = vector::Zero();
-                addForce(pairs_, ref_, weight_.data(), A.data(), i, sum);
-                f[i] = vec4::from(sum);
+                simd4 own;
+                ownForce(pairs_, weight_.data(), X_.data(), columns.data(), i, own);
+                f[i].s = own + vec4::from(imageForce(pairs_, ref_, weight_.data(), A, i)).s;
             }
         },
         256);
