@@ -4,6 +4,16 @@
 namespace ispf
 {
 
+namespace
+{
+
+// What the solid takes of the Laplacian's solution.  D A^-1 G answers more stiffly there than the pair
+// Laplacian with the diagonal of A says: on the HCC, steps of 8 ms take 13 iterations with 1, 9 with 0.3,
+// and 11 (the first step 57 instead of 34) with 0
+constexpr scalar solidShare = 0.3;
+
+}  // namespace
+
 monolithicPreconditioner::monolithicPreconditioner(const monolithicSystem& system,
                                                    const dictionary& dict)
     : system_(system),
@@ -119,7 +129,11 @@ void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) con
 
     phi_.resize(cloud.nAll());
     for (label i = 0; i < n; ++i)
-        phi_[i].s = simd4{0, 0, 0, cloud.pFixed[i] ? r[4 * i + 3] : s_[i] - bulk_[i] * div_[i]};
+    {
+        const scalar share = cloud.isFluid(i) ? 1 : solidShare;
+        phi_[i].s =
+            simd4{0, 0, 0, cloud.pFixed[i] ? r[4 * i + 3] : share * s_[i] - bulk_[i] * div_[i]};
+    }
     cloud.fillGhosts(phi_, true);
     system_.rows().pressureGradient(phi_, work_);
     z.resize(4 * n);
