@@ -20,7 +20,7 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
       p_(Function1::New("p", dict, caseFolder)),
       spotGrid_(1.5 * cloud.dx)
 {
-    const scalar reach = depth_ + 3 * dx_;
+    const scalar reach = depth_ + dx_;
     if (dict.chooseOrDefault("surface", {"triSurface", "plane"}, "triSurface") == "plane")
         surface_ = patchSurface::plane(dict.get<vector>("point"), nonZero(dict, "normal"), reach);
     else surface_ = patchSurface::triangles(readPatch(caseFolder, name, dict), group, reach);
