@@ -25,7 +25,7 @@ run taylorGreen taylorGreen system/sphSolution coupling monolithic
 below "Taylor-Green, monolithic [%]" "$(number 'largest difference ')" 1
 grep -q "^coupling: monolithic" log.ispfFsiFoam || fail "not monolithic"
 run poiseuille poiseuille
-awk '$1 + 0 > 0 { ++n; if ($4*$4 > 0.7^2) exit 1 } END { exit n != 5 }' comparison/table.txt ||
+awk '$1 + 0 > 0 { ++n; worse += $4*$4 > 0.7^2 } END { exit n != 5 || worse }' comparison/table.txt ||
     fail "Poiseuille: $(cat comparison/table.txt)"
 run hydrostaticBox hydrostaticBox
 below "speed at rest [m/s]" "$(number 'largest speed in 1 s ')" 1e-6

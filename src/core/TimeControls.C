@@ -79,7 +79,9 @@ void Time::rereadIfModified()
     controlStamp_ = stamp;
     try
     {
-        readControls(dictionary::fromFile(controlFile()));
+        const dictionary changed = dictionary::fromFile(controlFile());
+        readControls(changed);
+        control_ = changed;
         info() << "Read the changed " << controlFile() << "\n";
     }
     catch (const fatalError& e)  // an editor may have saved half a thought

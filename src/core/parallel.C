@@ -31,8 +31,7 @@ List<scalar> overBlocks(label n, const std::function<scalar(label, label)>& body
     List<scalar> value(nBlocks);
     parallelFor(
         nBlocks,
-        [&](label b, label e)
-        {
+        [&](label b, label e) {
             for (label k = b; k < e; ++k)
                 value[k] = body(k * blockSize, std::min(n, (k + 1) * blockSize));
         },
@@ -88,10 +87,19 @@ scalar dot(const List<scalar>& a, const List<scalar>& b)
                        [&](label i, label e) { return dotRange(&a[i], &b[i], e - i); });
 }
 
-scalar norm(const List<scalar>& a) { return std::sqrt(dot(a, a)); }
+scalar norm(const List<scalar>& a)
+{
+    return std::sqrt(dot(a, a));
+}
 
-int nThreads() { return omp_get_max_threads(); }
+int nThreads()
+{
+    return omp_get_max_threads();
+}
 
-void setThreads(int n) { omp_set_num_threads(n < 1 ? omp_get_num_procs() : n); }
+void setThreads(int n)
+{
+    omp_set_num_threads(n < 1 ? omp_get_num_procs() : n);
+}
 
 }  // namespace ispf

@@ -58,7 +58,7 @@ void writeZones(const particleCloud& cloud, particleTable& table)
 
 void readCloud(Time& time, particleCloud& cloud)
 {
-    const word file = time.timePath() + "/particles.hdf";
+    const word file = time.caseFolder() + "/" + time.folderName(time.value()) + "/particles.hdf";
     const particleTable table = readParticles(file);
     if (table.size() == 0) throw fatalError(file + " holds no particle");
     cloud.nDims = int(table.scalarAttribute("nDims"));
@@ -111,7 +111,8 @@ void readCloud(Time& time, particleCloud& cloud)
 
 void restoreBalance(const Time& time, boundary& walls)
 {
-    const particleTable table = readParticles(time.timePath() + "/particles.hdf");
+    const particleTable table =
+        readParticles(time.caseFolder() + "/" + time.folderName(time.value()) + "/particles.hdf");
     List<patchBalance> balance = walls.balance();
     for (patchBalance& b : balance)
         if (const auto it = table.extra.find("balance." + b.name); it != table.extra.end())
@@ -157,7 +158,7 @@ void writeCloud(Time& time, const particleCloud& cloud, const boundary& walls)
     List<seriesEntry> series;
     for (const scalar t : time.times())
     {
-        const word folder = time.timeName(t);
+        const word folder = time.folderName(t);
         if (fs::exists(time.caseFolder() + "/" + folder + "/particles.hdf") &&
             std::find(purge.begin(), purge.end(), folder) == purge.end())
             series.push_back({t, folder + "/particles.hdf"});

@@ -68,14 +68,22 @@ void fsiCase::readKernel()
 {
     // 3D projection: what the paper's numbers imply, h = dx; else Wendland C2 at h = 1.3 dx
     const bool paper =
-        cloud.nDims == 3 && solution.getOrDefault<word>("coupling", "") == "projection";
+        cloud.nDims == 3 &&
+        solution.getOrDefault<word>("coupling", cloud.nSolid() > 0 ? "monolithic" : "projection") ==
+            "projection";
     const word name =
         schemes.chooseOrDefault("kernel", smoothingKernel::valid(), paper ? "cubic" : "WendlandC2");
-    const scalar hByDx = schemes.getInRangeOrDefault("hByDx", 0.5, 4, paper ? 1.0 : 1.3);
-    if (name.rfind("Wendland", 0) == 0 && hByDx < 1.05)
+    const bool Wendland = name.rfind("Wendland", 0) == 0;
+    const scalar hByDx =
+        schemes.getInRangeOrDefault("hByDx", 0.5, 4, paper && !Wendland ? 1.0 : 1.3);
+    if (Wendland && hByDx < 1.05)
         warning("kernel " + name + " with hByDx " + str(hByDx) +
                 ": this pair is known to blow up; use hByDx 1.3, or the cubic kernel");
     kernel = smoothingKernel::New(name, cloud.nDims, hByDx * cloud.dx);
+    if (kernel->support() < 1.8 * cloud.dx)
+        schemes.fail("hByDx",
+                     "The support would be " + str(kernel->support() / cloud.dx) +
+                         " dx: too few neighbours. It must be 1.8 dx at least, better 2 to 3");
 }
 
 void fsiCase::readStructure()

@@ -21,6 +21,10 @@ trackedSurface::trackedSurface(const word& name, const fsiCase& c) : name_(name)
     if (const boundBox box = rest_.bounds(); c.cloud.nDims == 2) height_ = box.max[2] - box.min[2];
     attach(c);
     findApex(*c.walls);
+    // normals point into the fluid, as generateParticles writes them, unless the volume at rest says else
+    scalar area = 0;
+    for (label t = 0; t < rest_.size(); ++t) area += rest_.areaVector(t).norm();
+    if (restVolume() < -1e-3 * area * c.cloud.dx) sign_ = 1;
     now_ = rest_;
     update(c.cloud.x);
 }
@@ -100,7 +104,7 @@ scalar trackedSurface::volumeOf(const triSurface& s) const
 {
     scalar volume = 0;
     for (label t = 0; t < s.size(); ++t) volume += (s.corner(t, 0) - apex_).dot(s.areaVector(t));
-    return std::abs(volume) * factor_ / (height_ > 0 ? 2 * height_ : 3);
+    return sign_ * volume * factor_ / (height_ > 0 ? 2 * height_ : 3);
 }
 
 }  // namespace ispf

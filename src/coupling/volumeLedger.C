@@ -14,6 +14,8 @@ volumeLedger::volumeLedger(fsiCase& c) : c_(c)
     {
         cavity_ = std::make_unique<trackedSurface>(dict.get<word>("cavity"), c);
         zone_ = c.cloud.zoneIndex(dict.get<word>("zone"));
+        if (c.cloud.zones[zone_].phase != phaseType::fluid)
+            dict.fail("zone", "Zone " + c.cloud.zones[zone_].name + " is not fluid");
         relaxation_ = dict.getInRangeOrDefault("relaxation", 0, 1, 0);
         cavity0_ = cavity_->restVolume();
     }
@@ -64,6 +66,13 @@ void volumeLedger::update(scalar dt)
         n += c_.cloud.zone[i] == zone_ && !c_.cloud.pFixed[i];
     const scalar fluid = n * c_.cloud.volume() * c_.walls->symmetryFactor();
     controlled_ += source_ * fluid * dt;
+    if (std::abs(controlled_) > 0.1 * fluid)
+        throw fatalError(
+            "Time " + c_.time.timeName() + " s: the volume control has put " + str(controlled_) +
+            " m^3 into zone " + c_.cloud.zones[zone_].name + " of " + str(fluid) +
+            " m^3: its cavity " + cavity_->name() +
+            " does not follow what the walls sweep. See whether the surface encloses that zone and "
+            "is fine enough, or set relaxation 0 in volumeLedger of system/sphSolution");
     source_ = fluid > 0 ? -relaxation_ * (cavityChange() - swept()) / (fluid * dt) : 0;
     c_.source[zone_] = source_;
     c_.cloud.history["volumeLedger"] = {controlled_, source_, wall0_};

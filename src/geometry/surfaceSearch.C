@@ -119,8 +119,9 @@ void surfaceSearch::setNormals()
         int users = 0;
     };
     std::map<std::pair<label, label>, edgeSum> edge;
-    const auto sumOf = [&](label t, int k) -> edgeSum&
-    { return edge[std::minmax(surface_.triangles[t][k], surface_.triangles[t][(k + 1) % 3])]; };
+    const auto sumOf = [&](label t, int k) -> edgeSum& {
+        return edge[std::minmax(surface_.triangles[t][k], surface_.triangles[t][(k + 1) % 3])];
+    };
     nodeNormal_.assign(surface_.nodes.size(), vector::Zero());
     for (label t = 0; t < surface_.size(); ++t)
     {

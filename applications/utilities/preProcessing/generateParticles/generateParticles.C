@@ -4,7 +4,6 @@
 #include "argList.H"
 #include "caseWriter.H"
 #include "packing.H"
-#include "packing.H"
 #include "packingReport.H"
 #include "particleDict.H"
 
