@@ -85,15 +85,15 @@ void volumeLedger::writeLine()
     open *= c_.cloud.volume() * c_.walls->symmetryFactor();
     file_ << std::scientific << std::setprecision(6) << std::setw(14) << std::left
           << c_.time.timeName();
-    for (const scalar v : {swept(), cavityChange(), open, wallVolume() - wall0_, controlled_})
-        file_ << '\t' << v;
+    const scalar wall = wallVolume() - wall0_;
+    for (const scalar v : {swept(), cavityChange(), open, wall, controlled_}) file_ << '\t' << v;
     file_ << std::endl;
     const auto inMm = [&](scalar v) {
         return c_.cloud.nDims == 2 ? str(v * 1e6) + " mm2" : str(v * 1e9) + " mm3";
     };
     info() << "volume ledger: swept " << inMm(swept());
     if (cavity_) info() << ", cavity " << inMm(cavityChange()) << ", control " << inMm(controlled_);
-    if (c_.structure) info() << ", wall " << inMm(wallVolume() - wall0_);
+    if (c_.structure) info() << ", wall " << inMm(wall);
     info() << "\n";
 }
 
