@@ -191,10 +191,10 @@ bool boundary::inside(const vector& x) const
     return content_->group.beyond(x) <= 0 && content_->walls.inside(x);
 }
 
-bool boundary::nearOpen(const vector& x) const
+bool boundary::nearOpen(label i) const
 {
     for (const openFace& face : content_->openFaces)
-        if (face.near(x)) return true;
+        if (face.near(i)) return true;
     return false;
 }
 

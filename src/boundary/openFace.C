@@ -32,14 +32,26 @@ scalar openFace::weight(scalar q)
     return q < 1 ? a * a : 0;
 }
 
+// The feet of all particles are asked for several times a step: looked up again only where another particle
+// is, or has moved
+void openFace::findFeet(const particleCloud& cloud) const
+{
+    constexpr scalar nowhere = std::numeric_limits<scalar>::quiet_NaN();
+    known_.resize(cloud.n(), {vector::Constant(nowhere), {}});
+    parallelFor(cloud.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            if (const vector x = cloud.x[i].xyz(); known_[i].x != x)
+                known_[i] = {x, surface_->find(x)};
+    });
+}
+
 void openFace::setFlags(particleCloud& cloud, const List<vector>& weight) const
 {
+    findFeet(cloud);
     parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
         for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
         {
-            const vector x = cloud.x[i].xyz();
-            if (surface_->surelyFar(x)) continue;
-            const surfaceFoot f = surface_->find(x);
+            const surfaceFoot& f = known_[i].foot;
             if (!f.found || f.depth <= 0) continue;
             cloud.pFixed[i] = 1, cloud.pGiven[i] = given_;
             // without a gradient the strip would fall freely onto the face
@@ -52,27 +64,23 @@ void openFace::setFlags(particleCloud& cloud, const List<vector>& weight) const
 // from the mean, a vortex or a layer at a wall, is left to the strip's own motion
 void openFace::followInside(particleCloud& cloud) const
 {
-    List<surfaceFoot> feet(cloud.n());
-    parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
-        for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
-            if (!surface_->surelyFar(cloud.x[i].xyz())) feet[i] = surface_->find(cloud.x[i].xyz());
-    });
+    findFeet(cloud);
     pointGrid all(region_);
     List<label> index;
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        if (feet[i].found && std::abs(feet[i].depth) < depth_)
-            all.add(feet[i].foot), index.push_back(i);
+        if (const surfaceFoot& f = known_[i].foot; f.found && std::abs(f.depth) < depth_)
+            all.add(f.foot), index.push_back(i);
     List<vector> change(index.size(), vector::Zero());
     parallelFor(
         label(index.size()),
         [&](label begin, label end) {
             for (label m = begin; m < end; ++m)
             {
-                if (feet[index[m]].depth <= 0) continue;
+                if (known_[index[m]].foot.depth <= 0) continue;
                 vector sum[2] = {vector::Zero(), vector::Zero()};
                 scalar weights[2] = {0, 0};
                 all.within(all[m], region_, [&](label k, scalar r) {
-                    const bool inside = feet[index[k]].depth <= 0;
+                    const bool inside = known_[index[k]].foot.depth <= 0;
                     const scalar w = weight(r / region_);
                     sum[inside] += w * cloud.Up[index[k]].xyz(), weights[inside] += w;
                 });
@@ -84,10 +92,9 @@ void openFace::followInside(particleCloud& cloud) const
         cloud.Up[index[m]].setXyz(cloud.Up[index[m]].xyz() + change[m]);
 }
 
-bool openFace::near(const vector& x) const
+bool openFace::near(label i) const
 {
-    if (surface_->surelyFar(x)) return false;
-    const surfaceFoot f = surface_->find(x);
+    const surfaceFoot& f = known_[i].foot;
     return f.found && f.depth > -1.3 * dx_;
 }
 

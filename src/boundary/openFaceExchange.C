@@ -48,30 +48,25 @@ struct openFace::census
     }
 };
 
-// The feet of particles near the face, and which lie beyond the strip
-label openFace::removeBeyond(particleCloud& cloud, List<surfaceFoot>& feet) const
+label openFace::removeBeyond(particleCloud& cloud) const
 {
-    feet.assign(cloud.n(), surfaceFoot());
-    parallelFor(cloud.n(), [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-            if (!surface_->surelyFar(cloud.x[i].xyz())) feet[i] = surface_->find(cloud.x[i].xyz());
-    });
+    findFeet(cloud);
     List<char> gone(cloud.n(), 0);
     label kept = cloud.nSolid();
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        if (feet[i].found && feet[i].depth > depth_) gone[i] = 1;
-        else feet[kept++] = feet[i];
+        if (known_[i].foot.found && known_[i].foot.depth > depth_) gone[i] = 1;
+        else known_[kept++] = known_[i];
     const label n = cloud.n() - kept;
     if (n > 0) cloud.remove(gone);
     return n;
 }
 
-openFace::census openFace::count(const particleCloud& cloud, const List<surfaceFoot>& feet) const
+openFace::census openFace::count(const particleCloud& cloud) const
 {
     census c(cloud, region_);
     for (label i = 0; i < cloud.n(); ++i)
     {
-        const surfaceFoot& f = feet[i];
+        const surfaceFoot& f = known_[i].foot;
         if (!f.found || f.depth < -1.5 * dx_) continue;
         c.particles.add(cloud.x[i].xyz()), c.index.push_back(i);
         if (!cloud.isFluid(i)) continue;
@@ -87,21 +82,36 @@ List<label> openFace::choose(const census& c) const
 {
     using candidate = std::tuple<scalar, label, scalar>;  // misfit, spot, its hole at that time
     std::priority_queue<candidate, List<candidate>, std::greater<>> queue;
-    List<scalar> hole(spots_.size());
-    const auto offer = [&](label k) {
-        if (hole[k] >= closest * dx_) queue.push({std::abs(hole[k] - dx_), k, hole[k]});
+    const auto without = [&](const pointGrid& feet, const vector& at, scalar full, scalar radius) {
+        feet.within(at, radius, [&](label, scalar r) { full -= weight(r / radius); });
+        return full;
     };
-    for (label k = 0; k < label(spots_.size()); ++k)
-        hole[k] = c.particles.nearest(spots_[k].x, 1.5 * dx_), offer(k);
+    // a spot is of use if there is room, and particles are missing or the hole may become a wide one
+    const label n = label(spots_.size());
+    List<scalar> hole(n), missingNear(n), missingRegion(n);
+    parallelFor(
+        n,
+        [&](label begin, label end) {
+            for (label k = begin; k < end; ++k)
+            {
+                const spot& at = spots_[k];
+                hole[k] = c.particles.nearest(at.x, 1.5 * dx_);
+                if (hole[k] < closest * dx_) continue;
+                missingNear[k] = without(c.feet, at.foot, at.fullNear, near_);
+                if (missingNear[k] < missingHere) continue;
+                missingRegion[k] = without(c.feet, at.foot, at.fullRegion, region_);
+            }
+        },
+        256);
+    const auto offer = [&](label k) {
+        const bool wanted = missingNear[k] >= missingHere && missingRegion[k] >= missingAround;
+        if (hole[k] >= (wanted ? closest : widest) * dx_)
+            queue.push({std::abs(hole[k] - dx_), k, hole[k]});
+    };
+    for (label k = 0; k < n; ++k) offer(k);
 
     List<label> chosen;
     pointGrid addedFeet(region_);
-    const auto missing = [&](const spot& at, scalar full, scalar radius) {
-        const auto subtract = [&](label, scalar r) { full -= weight(r / radius); };
-        c.feet.within(at.foot, radius, subtract);
-        addedFeet.within(at.foot, radius, subtract);
-        return full;
-    };
     const auto flowsOut = [&](const spot& at) {
         scalar out = 0;
         c.around(at.x, at.zone,
@@ -114,8 +124,10 @@ List<label> openFace::choose(const census& c) const
         queue.pop();
         if (then != hole[k]) continue;
         const spot& at = spots_[k];
-        const bool wanted = missing(at, at.fullNear, near_) >= missingHere &&
-                            missing(at, at.fullRegion, region_) >= missingAround && !flowsOut(at);
+        const bool wanted =
+            without(addedFeet, at.foot, missingNear[k], near_) >= missingHere &&
+            without(addedFeet, at.foot, missingRegion[k], region_) >= missingAround &&
+            !flowsOut(at);
         if (!wanted && hole[k] < widest * dx_) continue;
         addedFeet.add(at.foot), chosen.push_back(k);
         spotGrid_.within(at.x, 1.5 * dx_, [&](label other, scalar r) {
@@ -159,9 +171,8 @@ void openFace::insert(particleCloud& cloud, const census& c, const List<label>& 
 openFace::change openFace::exchange(particleCloud& cloud) const
 {
     change c;
-    List<surfaceFoot> feet;
-    c.deleted = removeBeyond(cloud, feet);
-    const census present = count(cloud, feet);
+    c.deleted = removeBeyond(cloud);
+    const census present = count(cloud);
     const List<label> chosen = choose(present);
     if (!chosen.empty()) insert(cloud, present, chosen);
     c.created = label(chosen.size());

@@ -118,8 +118,8 @@ void fsiCase::updateNeighbours(scalar t0, scalar t1)
     walls->setStep(t0, t1);
     List<vector> weight;
     for (const vector& a : bodyForce) weight.push_back(rho * a);
-    walls->setFlags(cloud, weight);
     cloud.sortFluid(kernel->support());
+    walls->setFlags(cloud, weight);
     walls->updateGhosts(cloud);
     list.build(cloud, *kernel, walls->visible(cloud));
     correction.build(cloud, list);

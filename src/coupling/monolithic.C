@@ -212,7 +212,7 @@ void monolithic::advance(scalar t, scalar dt, int depth)
     c_.walls->setOpenVelocity(cloud);
     // Shift first, with the neighbours at hand, then move: x^{n+1} = x^n + dt u^{n+1}
     shifting_.shift(cloud, c_.list, c_.correction, dt,
-                    [&](const vector& x) { return c_.walls->nearOpen(x); });
+                    [&](label i) { return c_.walls->nearOpen(i); });
     for (label i = 0; i < cloud.n(); ++i)
         cloud.x[i].s += dt * simd4{cloud.Up[i][0], cloud.Up[i][1], cloud.Up[i][2], 0};
     c_.walls->exchange(cloud, t + dt);

@@ -148,7 +148,7 @@ void projection::step(scalar t, scalar dt)
 
     // shifted with the neighbours at hand, then moved
     shifting_.shift(cloud, c_.list, c_.correction, dt,
-                    [&](const vector& x) { return c_.walls->nearOpen(x); });
+                    [&](label i) { return c_.walls->nearOpen(i); });
     move(before, dt);
     c_.walls->exchange(cloud, t + dt);
 }

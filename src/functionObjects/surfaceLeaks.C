@@ -61,13 +61,16 @@ private:
     {
         surface_.update(case_.cloud.x);
         const surfaceSearch search(surface_.now());
-        for (label i = 0; i < case_.cloud.n(); ++i)
-        {
-            if (!chosen_(case_.cloud, i)) continue;
-            const vector x = case_.cloud.x[i].xyz();
-            const surfacePoint p = search.nearest(x, radius);
-            if (p.found && !p.rim) visit(p.signedDistance(x));
-        }
+        const label n = case_.cloud.n();
+        List<surfacePoint> nearest(n);
+        parallelFor(n, [&](label begin, label end) {
+            for (label i = begin; i < end; ++i)
+                if (chosen_(case_.cloud, i))
+                    nearest[i] = search.nearest(case_.cloud.x[i].xyz(), radius);
+        });
+        for (label i = 0; i < n; ++i)
+            if (nearest[i].found && !nearest[i].rim)
+                visit(nearest[i].signedDistance(case_.cloud.x[i].xyz()));
     }
 
     trackedSurface surface_;

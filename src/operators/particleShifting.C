@@ -36,14 +36,14 @@ struct shiftRows
     const particleCloud& cloud;
     const neighbourList& list;
     const kernelCorrection& correction;
-    const std::function<bool(const vector&)>& leaveAlone;
+    const std::function<bool(label)>& leaveAlone;
     scalar alpha, most;
 
     // Without a one-sided gradient the fields could not follow
     bool moves(label i) const
     {
         return list.start[i] != list.start[i + 1] && !correction.same[i].isZero(0) &&
-               !(leaveAlone && leaveAlone(cloud.x[i].xyz()));
+               !(leaveAlone && leaveAlone(i));
     }
 };
 
@@ -90,7 +90,7 @@ word particleShifting::describe() const
 
 void particleShifting::shift(particleCloud& cloud, const neighbourList& list,
                              const kernelCorrection& correction, scalar dt,
-                             const std::function<bool(const vector&)>& leaveAlone) const
+                             const std::function<bool(label)>& leaveAlone) const
 {
     const shiftRows rows{cloud,
                          list,
