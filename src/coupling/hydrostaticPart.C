@@ -4,12 +4,26 @@
 namespace ispf
 {
 
-hydrostaticPart::hydrostaticPart(const fsiCase& c) : rho_(c.rho), a_(vector::Zero())
+namespace
 {
-    if (c.bodyForce.empty()) return;
-    for (const vector& other : c.bodyForce)
-        if (other != c.bodyForce[0]) return;
-    a_ = c.bodyForce[0];
+
+// Over the fluid zones: a solid carries its own force, and alone it has nothing to float in.  Equal ones
+// give that value itself, without round-off.
+vector meanOfFluid(const fsiCase& c)
+{
+    List<vector> a;
+    for (size_t zone = 0; zone < c.bodyForce.size(); ++zone)
+        if (c.cloud.zones[zone].phase == phaseType::fluid) a.push_back(c.bodyForce[zone]);
+    if (a.empty()) return vector::Zero();
+    vector excess = vector::Zero();
+    for (const vector& other : a) excess += other - a[0];
+    return a[0] + excess / scalar(a.size());
+}
+
+}  // namespace
+
+hydrostaticPart::hydrostaticPart(const fsiCase& c) : rho_(c.rho), a_(meanOfFluid(c))
+{
     List<vector> along;
     for (const structureImage& image : c.walls->images())
     {

@@ -16,6 +16,17 @@ const char* const slipBox = R"(
     bottom { type symmetryPlane; point (0 0 0); normal (0 -1 0); }
     top    { type symmetryPlane; point (0 0.4 0); normal (0 1 0); })";
 
+// The same box with walls
+word walls(const word& representation)
+{
+    const auto plane = [&](const word& name, const word& point, const word& normal) {
+        return name + " { type wall; surface plane; representation " + representation + "; point " +
+               point + "; normal " + normal + "; }\n";
+    };
+    return plane("left", "(0 0 0)", "(-1 0 0)") + plane("right", "(0.2 0 0)", "(1 0 0)") +
+           plane("bottom", "(0 0 0)", "(0 -1 0)") + plane("top", "(0 0.4 0)", "(0 1 0)");
+}
+
 void disorder(particleTable& table, scalar most)
 {
     std::uint64_t state = 1;
@@ -63,13 +74,7 @@ TEST_CASE("fluid stays at rest between rigid and between mirror walls, with both
             caseOnDisk files("restInBox");
             files.fill(10, 20, 0.02);
             disorder(files.particles(), 0.004);
-            const auto plane = [&](const word& name, const word& point, const word& normal) {
-                return name + " { type wall; surface plane; representation " + representation +
-                       "; point " + point + "; normal " + normal + "; }\n";
-            };
-            files.boundary =
-                plane("left", "(0 0 0)", "(-1 0 0)") + plane("right", "(0.2 0 0)", "(1 0 0)") +
-                plane("bottom", "(0 0 0)", "(0 -1 0)") + plane("top", "(0 0.4 0)", "(0 1 0)");
+            files.boundary = walls(representation);
             files.solution = "coupling " + coupling + ";";
             files.g = "(1 -9.81 0)";
             for (size_t i = 0; i < files.particles().size(); ++i)
@@ -87,6 +92,42 @@ TEST_CASE("fluid stays at rest between rigid and between mirror walls, with both
                 const scalar p = 1000 * c.cloud.x[i].xyz().dot(vector(1, -9.81, 0));
                 CHECK(std::abs(c.cloud.Up[i][3] - p) < 1e-8 * 1000 * 9.81);
             }
+        }
+}
+
+TEST_CASE("accelerations that differ a little between zones move the fluid a little")
+{
+    constexpr scalar g = 9.81, more = 1e-8 * g;
+    for (const word coupling : {"projection", "monolithic"})
+        for (const word representation : {"particles", "mirror"})
+        {
+            CAPTURE(coupling);
+            CAPTURE(representation);
+            caseOnDisk files("restOfTwoZones");
+            files.fill(10, 20, 0.02);
+            particleTable& t = files.particles();
+            disorder(t, 0.004);
+            t.attributes["zones"] = "lower upper", t.attributes["phases"] = "fluid fluid";
+            for (size_t i = 0; i < t.size(); ++i)
+            {
+                t.integers["zone"][i] = t.x[i][1] > 0.2;
+                t.scalars["p"][i] = -1000 * g * t.x[i][1];
+            }
+            files.boundary = walls(representation), files.solution = "coupling " + coupling + ";";
+            files.g = "(0 -9.81 0)";
+            files.properties =
+                "rho 1000; mu 1e-3; bodyForce { upper (" + str(more, 17) + " 0 0); }";
+            files.write();
+            capturedLog log;
+            Time time(files.path());
+            fsiCase c(time);
+            const auto scheme = couplingScheme::New(c);
+            runSteps(c, *scheme, 0.01, 20);
+            scalar speed = 0;
+            for (label i = 0; i < c.cloud.n(); ++i)
+                speed = std::max(speed, c.cloud.Up[i].xyz().norm());
+            CHECK(speed > 0.01 * more * 0.2);
+            CHECK(speed < 10 * more * 0.2);
         }
 }
 
