@@ -123,7 +123,7 @@ word Time::folderName(scalar t) const
 
 bool Time::hasState(scalar t) const
 {
-    return isFile(case_ + "/" + folderName(t) + "/particles.hdf");
+    return isFile(folder(t) + "/particles.hdf");
 }
 
 // The folder name holds few digits; uniform/time holds all of them
@@ -147,7 +147,7 @@ void Time::readState()
 void Time::writeState() const
 {
     const word name = timeName();
-    writeText(timePath() + "/uniform/time",
+    writeText(folder() + "/uniform/time",
               "FoamFile\n{\n    version     2.0;\n    format      ascii;\n"
               "    class       dictionary;\n    location    \"" +
                   name + "/uniform\";\n    object      time;\n}\n\nvalue       " + str(value_, 17) +

@@ -58,7 +58,7 @@ void writeZones(const particleCloud& cloud, particleTable& table)
 
 void readCloud(Time& time, particleCloud& cloud)
 {
-    const word file = time.caseFolder() + "/" + time.folderName(time.value()) + "/particles.hdf";
+    const word file = time.folder() + "/particles.hdf";
     const particleTable table = readParticles(file);
     if (table.size() == 0) throw fatalError(file + " holds no particle");
     cloud.nDims = int(table.scalarAttribute("nDims"));
@@ -111,8 +111,7 @@ void readCloud(Time& time, particleCloud& cloud)
 
 void restoreBalance(const Time& time, boundary& walls)
 {
-    const particleTable table =
-        readParticles(time.caseFolder() + "/" + time.folderName(time.value()) + "/particles.hdf");
+    const particleTable table = readParticles(time.folder() + "/particles.hdf");
     List<patchBalance> balance = walls.balance();
     for (patchBalance& b : balance)
         if (const auto it = table.extra.find("balance." + b.name); it != table.extra.end())
@@ -150,17 +149,16 @@ void writeCloud(Time& time, const particleCloud& cloud, const boundary& walls)
     writeZones(cloud, table);
 
     // particles.hdf last: it makes the folder one to continue from
-    fs::create_directories(time.timePath());
+    fs::create_directories(time.folder());
     time.writeState();
-    writeParticles(table, time.timePath() + "/particles.hdf");
+    writeParticles(table, time.folder() + "/particles.hdf");
 
     const List<word> purge = time.toPurge();
     List<seriesEntry> series;
     for (const scalar t : time.times())
     {
         const word folder = time.folderName(t);
-        if (fs::exists(time.caseFolder() + "/" + folder + "/particles.hdf") &&
-            std::find(purge.begin(), purge.end(), folder) == purge.end())
+        if (time.hasState(t) && std::find(purge.begin(), purge.end(), folder) == purge.end())
             series.push_back({t, folder + "/particles.hdf"});
     }
     writeSeries(time.caseFolder() + "/particles.hdf.series", series);

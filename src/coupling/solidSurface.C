@@ -101,7 +101,7 @@ void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
 }
 
 void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
-                         const smoothingKernel& kernel, const List<tensor>& F)
+                         const smoothingKernel& kernel, const List<tensor>& cofactor)
 {
     cloud_ = &cloud, list_ = &list;
     const label nSolid = cloud.nSolid();
@@ -111,15 +111,14 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
     parallelFor(
         nSolid,
         [&](label begin, label end) {
-            for (label i = begin; i < end; ++i) setupParticle(i, kernel, F[i]);
+            for (label i = begin; i < end; ++i) setupParticle(i, kernel, cofactor[i]);
         },
         256);
 }
 
-void solidSurface::setupParticle(label i, const smoothingKernel& kernel, const tensor& F)
+void solidSurface::setupParticle(label i, const smoothingKernel& kernel, const tensor& cofactor)
 {
     const particleCloud& cloud = *cloud_;
-    const tensor cofactor = F.determinant() * F.inverse().transpose();
     for (const int s : {0, 1})
     {
         const vec4& S0 = cloud.vectors.at(areaField[s])[i];

@@ -8,8 +8,13 @@ namespace ispf
 void volumeConstraint::setup(const List<tensor>& F)
 {
     cofactor_.resize(F.size());
-    for (size_t i = 0; i < F.size(); ++i)
-        cofactor_[i] = F[i].determinant() * F[i].inverse().transpose();
+    parallelFor(
+        label(F.size()),
+        [&](label begin, label end) {
+            for (label i = begin; i < end; ++i)
+                cofactor_[i] = F[i].determinant() * F[i].inverse().transpose();
+        },
+        256);
 }
 
 void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ) const

@@ -196,7 +196,7 @@ TEST_CASE("the coupled system solved by FGMRES agrees with a direct solution")
     surface.initialise(c.cloud, c.list, *c.kernel, F);
     volumeConstraint volume(*c.structure);
     volume.setup(F);
-    surface.setup(c.cloud, c.list, *c.kernel, F);
+    surface.setup(c.cloud, c.list, *c.kernel, volume.cofactor());
 
     monolithicSystem system(c);
     monolithicPreconditioner M(system, dictionary());
