@@ -3,6 +3,7 @@
 
 #include "followWeights.H"
 #include "pointGrid.H"
+#include "surfaceRefinement.H"
 #include "surfaceTopology.H"
 
 #include <algorithm>
@@ -11,15 +12,25 @@
 namespace ispf
 {
 
+namespace
+{
+
+// [dx] Longest edge: a mesh as coarse as the CAD faces are flat would cut off what the solid bulges
+constexpr scalar longestEdge = 1.5;
+
+}  // namespace
+
 trackedSurface::trackedSurface(const word& name, const fsiCase& c) : name_(name)
 {
     if (c.cloud.nSolid() == 0)
         throw fatalError("Surface " + name + " is to follow a solid, but the case has none");
     rest_ = readSTL(c.time.constantFile("triSurface/" + name + ".stl"));
     rest_.weld(1e-3 * c.cloud.dx);
+    refine(rest_, longestEdge * c.cloud.dx);
     factor_ = c.walls->symmetryFactor();
     if (const boundBox box = rest_.bounds(); c.cloud.nDims == 2) height_ = box.max[2] - box.min[2];
     attach(c);
+    findRim(*c.walls);
     findApex(*c.walls);
     // normals point into the fluid, as generateParticles writes them, unless the volume at rest says else
     scalar area = 0;
@@ -65,24 +76,32 @@ void trackedSurface::attach(const fsiCase& c)
     }
 }
 
+void trackedSurface::findRim(const boundary& walls)
+{
+    for (const auto& [a, b] : openHalfEdges(rest_))
+    {
+        // in two dimensions the rim is the ends alone, not the edges of the slice
+        const vector edge = rest_.nodes[b] - rest_.nodes[a];
+        if (height_ > 0 && std::abs(edge[2]) < 1e-3 * height_) continue;
+        const vector middle = rest_.nodes[a] + 0.5 * edge;
+        bool onPlane = false;
+        for (const auto& [point, normal] : walls.symmetryPlanes())
+            onPlane = onPlane || std::abs((middle - point).dot(normal)) < 1e-4 * edge.norm();
+        if (!onPlane) rim_.push_back({a, b});
+    }
+}
+
 // A point in every symmetry plane and in the mean of the rim: planes through it add no volume
 void trackedSurface::findApex(const boundary& walls)
 {
     apex_ = vector::Zero();
-    label n = 0;
-    for (const auto& [a, b] : openHalfEdges(rest_))
+    scalar length = 0;
+    for (const auto& [a, b] : rim_)
     {
-        // in two dimensions the rim is the ends alone, not the edges of the slice
-        if (height_ > 0 && std::abs(rest_.nodes[a][2] - rest_.nodes[b][2]) < 0.5 * height_)
-            continue;
-        const vector middle = 0.5 * (rest_.nodes[a] + rest_.nodes[b]);
-        bool onPlane = false;
-        for (const auto& [point, normal] : walls.symmetryPlanes())
-            onPlane = onPlane || std::abs((middle - point).dot(normal)) <
-                                     1e-4 * (rest_.nodes[a] - rest_.nodes[b]).norm();
-        if (!onPlane) apex_ += middle, ++n;
+        const scalar part = (rest_.nodes[b] - rest_.nodes[a]).norm();
+        apex_ += 0.5 * part * (rest_.nodes[a] + rest_.nodes[b]), length += part;
     }
-    if (n > 0) apex_ /= n;
+    if (length > 0) apex_ /= length;
     for (int sweep = 0; sweep < 20; ++sweep)  // onto all planes; orthogonal ones need one
         for (const auto& [point, normal] : walls.symmetryPlanes())
             apex_ -= (apex_ - point).dot(normal) * normal;
@@ -100,10 +119,19 @@ void trackedSurface::update(const List<vec4>& x)
     });
 }
 
-scalar trackedSurface::volumeOf(const triSurface& s) const
+// The rim's way since rest is closed by a ribbon: a rim that moves along with a wall leaves no gap
+scalar trackedSurface::volumeBelow(const triSurface& s) const
 {
     scalar volume = 0;
-    for (label t = 0; t < s.size(); ++t) volume += (s.corner(t, 0) - apex_).dot(s.areaVector(t));
+    const auto add = [&](const vector& a, const vector& b, const vector& c) {
+        volume += 0.5 * (a - apex_).dot((b - a).cross(c - a));
+    };
+    for (label t = 0; t < s.size(); ++t) add(s.corner(t, 0), s.corner(t, 1), s.corner(t, 2));
+    for (const auto& [a, b] : rim_)
+    {
+        add(s.nodes[b], s.nodes[a], rest_.nodes[a]);
+        add(s.nodes[b], rest_.nodes[a], rest_.nodes[b]);
+    }
     return sign_ * volume * factor_ / (height_ > 0 ? 2 * height_ : 3);
 }
 

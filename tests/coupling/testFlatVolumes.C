@@ -59,6 +59,10 @@ TEST_CASE("area under a bent wall, and what a piston sweeps")
     for (label i = 0; i < c.cloud.n(); ++i) c.cloud.x[i][0] *= 1.1, c.cloud.x[i][1] *= 1.2;
     surface.update(c.cloud.x);
     CHECK(surface.enclosedVolume() == relative(1.32 * area, 1e-6));
+    for (label i = 0; i < c.cloud.n(); ++i)
+        c.cloud.x[i] = c.cloud.vectors.at("x0")[i], c.cloud.x[i][1] -= 0.2 * dx;
+    surface.update(c.cloud.x);  // its rim has moved as well
+    CHECK(surface.enclosedVolume() - surface.restVolume() == relative(0.2 * dx * length, 1e-6));
 
     c.walls->setStep(0, 0.5);
     c.walls->exchange(c.cloud, 0.5);

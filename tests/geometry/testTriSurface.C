@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "halfSpace.H"
+#include "relative.H"
+#include "surfaceRefinement.H"
 #include "surfaceTopology.H"
 #include "testShapes.H"
 
@@ -153,4 +155,31 @@ TEST_CASE("a half model's cut face is dropped and its images complete it")
     CHECK(checkClosed(whole).closed());
     CHECK(whole.volume() == doctest::Approx(2).epsilon(1e-12));
     CHECK(withImages(s, {half}, 0.5).size() < whole.size());
+}
+
+TEST_CASE("refining halves long edges without a crack; volume, patches and normals stay")
+{
+    triSurface s = box({0, 0, 0}, {1, 0.3, 0.05}, "flat");
+    s.append(sphere({0, 0, 5}, 0.4, 1));
+    s.triangles.pop_back(), s.patch.pop_back();  // an open edge is halved as well
+    const scalar volume = s.volume(), openLength = checkClosed(s).openLength;
+    const triSurface before = s;
+    refine(s, 0.1);
+    scalar longest = 0;
+    for (label t = 0; t < s.size(); ++t)
+        for (int k = 0; k < 3; ++k)
+        {
+            longest = std::max(longest, (s.corner(t, k) - s.corner(t, (k + 1) % 3)).norm());
+        }
+    CHECK(longest <= 0.1);
+    CHECK(s.size() < 5000);
+    CHECK(s.volume() == relative(volume, 1e-12));
+    CHECK(checkClosed(s).flippedPairs == 0);
+    CHECK(checkClosed(s).openLength == relative(openLength, 1e-12));
+    for (const char* patch : {"flat", "sphere"})
+        CHECK(s.patchSurface(patch).area() == relative(before.patchSurface(patch).area(), 1e-12));
+
+    const triSurface fine = s;
+    refine(s, 0.1);
+    CHECK(s.triangles == fine.triangles);
 }

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# A cavity whose surface comes as two triangles: left to itself it gains what the piston pushes in, within 1 %
+# of the stroke, and the wall keeps its volume
+set -uo pipefail
+. "$(dirname "$0")/cases/functions"
+
+newCase membrane uncontrolled
+setEntry system/sphSolution relaxation 0
+echo "monolithic { volumeFeedback 0; }" >> system/sphSolution
+place
+solved
+awk '!/^#/ { ++n; defect = $3 - $2; if (defect < 0) defect = -defect
+            if (defect > worst) worst = defect
+            if ($2 > stroke) stroke = $2
+            if ($6 != 0 || $7 != 0) { print "    control in " $0; bad = 1 }
+            if ($5 > wall) wall = $5 }
+    END { if (n != 26 || stroke < 9.9e-4) { print "    " n " rows, stroke " stroke; bad = 1 }
+          if (worst > 0.01*stroke) { print "    cavity off by " worst/stroke " of the stroke"; bad = 1 }
+          if (wall > 0.005*0.0048) { print "    wall grows by " wall; bad = 1 }
+          exit bad }' postProcessing/volumeLedger/0/volumeLedger.dat || fail "the cavity against the piston"
+[ $failures = 0 ]
