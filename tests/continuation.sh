@@ -16,6 +16,9 @@ continued() { # template name
     solved
     grep -q "^Time = 0.13$" log && fail "$2: begins anew"
     same 0.26 "../$2/0.26" "$2: continued from half way"
+    local ledger=volumeLedger.dat
+    [ "$(tail -n 1 "../$2/postProcessing/volumeLedger/0/$ledger")" = \
+      "$(tail -n 1 postProcessing/volumeLedger/0.13/$ledger)" ] || fail "$2: another ledger"
 }
 adjusted='setEntry system/controlDict writeControl adjustableRunTime
     setEntry system/controlDict writeInterval 0.13; echo "adjustTimeStep yes;" >> system/controlDict'

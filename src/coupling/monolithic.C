@@ -7,13 +7,14 @@
 //         absTolerance 1e-6;    // times the velocity scale, per particle: a floor for warm starts
 //         maxIter     150;
 //         theta       0.95;     // memory of the pressure stabiliser
-//         volumeFeedback 0.1;   // relaxes J - 1 of the solid, per step
+//         volumeFeedback 0.1;   // relaxes J - 1 of the solid, per step; booked by the volume ledger
 //         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
 //     }
 #include "couplingScheme.H"
 #include "FGMRES.H"
 #include "monolithicPreconditioner.H"
 #include "particleShifting.H"
+#include "volumeLedger.H"
 #include "worstRow.H"
 
 #include <algorithm>
@@ -54,6 +55,8 @@ public:
 private:
     void structureState();
     List<scalar> guess(scalar dt) const;
+    scalar feedback(label i, scalar dt) const;
+    void bookFeedback(scalar dt);
     void accept(const List<scalar>& z, scalar dt);
     word solve(scalar dt, List<scalar>& z);
     word tooFar(scalar dt, const List<scalar>& z) const;
@@ -126,6 +129,22 @@ List<scalar> monolithic::guess(scalar dt) const
     return z;
 }
 
+// Volume source of solid particle i [1/s]
+scalar monolithic::feedback(label i, scalar dt) const
+{
+    return -alpha_ * (F_[i].determinant() - 1) / dt;
+}
+
+void monolithic::bookFeedback(scalar dt)
+{
+    if (!c_.structure || alpha_ == 0) return;
+    scalar rate = 0;
+    for (label i = 0; i < c_.cloud.nSolid(); ++i) rate += feedback(i, dt);
+    List<scalar>& booked = c_.cloud.history[solidFeedback];
+    booked.resize(1, 0);
+    booked[0] += rate * c_.cloud.volume() * dt;
+}
+
 void monolithic::accept(const List<scalar>& z, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
@@ -140,7 +159,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
 {
     const particleCloud& cloud = c_.cloud;
     List<scalar> q(cloud.n(), 0), b;
-    for (label i = 0; i < cloud.nSolid(); ++i) q[i] = -alpha_ * (F_[i].determinant() - 1) / dt;
+    for (label i = 0; i < cloud.nSolid(); ++i) q[i] = feedback(i, dt);
     for (label i = cloud.nSolid(); i < cloud.n() && !c_.source.empty(); ++i)
         q[i] = c_.source[cloud.zone[i]];
     if (c_.structure) system_.setup(dt, volume_.get(), &surface_, &K_);
@@ -207,6 +226,7 @@ void monolithic::advance(scalar t, scalar dt, int depth)
         return;
     }
     accept(z, dt);
+    bookFeedback(dt);
     system_.hydrostatic().giveBack(cloud);
 
     c_.walls->setOpenVelocity(cloud);

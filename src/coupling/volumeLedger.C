@@ -34,8 +34,8 @@ volumeLedger::volumeLedger(fsiCase& c) : c_(c)
     file_.open(folder + "/volumeLedger.dat");
     if (!file_) throw fatalError("Cannot write " + folder + "/volumeLedger.dat");
     file_ << "# Volumes of the whole body [m^" << c.cloud.nDims
-          << "]; control: added by the control term\n"
-          << "# Time\tswept\tcavity\topenNet\twall\tcontrol\n";
+          << "] since the start; control, wallFeedback: put in by them\n"
+          << "# Time\tswept\tcavity\topenNet\twall\tcontrol\twallFeedback\n";
 }
 
 scalar volumeLedger::swept() const
@@ -53,6 +53,12 @@ scalar volumeLedger::wallVolume() const
     scalar sum = 0;
     for (const tensor& f : F) sum += f.determinant();
     return sum * c_.cloud.volume() * c_.walls->symmetryFactor();
+}
+
+scalar volumeLedger::wallFeedback() const
+{
+    const auto booked = c_.cloud.history.find(solidFeedback);
+    return booked == c_.cloud.history.end() ? 0 : booked->second.at(0) * c_.walls->symmetryFactor();
 }
 
 void volumeLedger::update(scalar dt)
@@ -85,15 +91,16 @@ void volumeLedger::writeLine()
     open *= c_.cloud.volume() * c_.walls->symmetryFactor();
     file_ << std::scientific << std::setprecision(6) << std::setw(14) << std::left
           << c_.time.timeName();
-    const scalar wall = wallVolume() - wall0_;
-    for (const scalar v : {swept(), cavityChange(), open, wall, controlled_}) file_ << '\t' << v;
+    const scalar wall = wallVolume() - wall0_, feedback = wallFeedback();
+    for (const scalar v : {swept(), cavityChange(), open, wall, controlled_, feedback})
+        file_ << '\t' << v;
     file_ << std::endl;
     const auto inMm = [&](scalar v) {
         return c_.cloud.nDims == 2 ? str(v * 1e6) + " mm2" : str(v * 1e9) + " mm3";
     };
     info() << "volume ledger: swept " << inMm(swept());
     if (cavity_) info() << ", cavity " << inMm(cavityChange()) << ", control " << inMm(controlled_);
-    if (c_.structure) info() << ", wall " << inMm(wall);
+    if (c_.structure) info() << ", wall " << inMm(wall) << ", feedback " << inMm(feedback);
     info() << "\n";
 }
 

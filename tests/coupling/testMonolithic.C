@@ -144,11 +144,13 @@ scalar innerPressure(const particleCloud& cloud)
     return sum / n;
 }
 
-// +25 % of the inner area in 50 steps of constant rate; c_s dt/dx as asked
-inflated inflate(const word& name, scalar courant)
+// +25 % of the inner area in 50 steps of constant rate; c_s dt/dx and volumeFeedback as asked
+inflated inflate(const word& name, scalar courant, const word& feedback)
 {
     constexpr scalar dt = 0.01, stroke = 0.25 * M_PI * innerRadius * innerRadius;
     ringCase ring(name, std::pow(courant * dx / dt, 2));
+    setContent(ring.files.path() + "/system/sphSolution",
+               "coupling monolithic; monolithic { volumeFeedback " + feedback + "; }");
     capturedLog log;
     Time time(ring.files.path());
     fsiCase c(time);
@@ -231,12 +233,15 @@ TEST_CASE("the coupled system solved by FGMRES agrees with a direct solution")
 TEST_CASE(
     "a thick ring inflated by a quarter: same shape at c_s dt/dx = 1 and 300, wall volume kept")
 {
-    const inflated soft = inflate("ringSoft", 1), stiff = inflate("ringStiff", 300);
+    // volumes without feedback, as a controlled one proves nothing; the stiff wall's pressure as cases run,
+    // without it is 2.4 % off
+    const inflated soft = inflate("ringSoft", 1, "0"), stiff = inflate("ringStiff", 300, "0");
     CHECK(std::abs(soft.wall) < 0.005);
     CHECK(std::abs(stiff.wall) < 0.005);
     for (const scalar area : {soft.inner, soft.outer, stiff.inner, stiff.outer})
         CHECK(std::abs(area - 1) < 0.015);
-    for (const scalar pressure : {soft.pressure, stiff.pressure})
+    const scalar stiffPressure = inflate("ringFeedback", 300, "0.1").pressure;
+    for (const scalar pressure : {soft.pressure, stiffPressure})
         CHECK(std::abs(pressure - 1) < 0.02);
     CHECK(std::abs(soft.inner - stiff.inner) < 0.002);
     CHECK(std::abs(soft.outer - stiff.outer) < 0.005);
