@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Particles that are on the wrong side of a surface that the solid carries along: fluid that has gone
-// into or through the wall.
+// Particles that are on the wrong side of a surface: fluid that has gone into or through a wall.
 //
-//     leaks { type surfaceLeaks; surface wall_to_chamber; zones (chamber); }
+//     leaks { type surfaceLeaks; surface wall_to_chamber; zones (chamber); }   // carried by the solid
+//     leaks { type surfaceLeaks; patches (walls); phase fluid; }               // walls that stand still
 //
 // The right side is the one on which most of the chosen particles near the surface are at the start.
 // Where the surface's rim is nearest there are no sides, and nothing is counted.
 // Columns, of the model, not the whole body: wrongSide, their number; through, those by more than half
-// a spacing, which cannot be the particle size's doing; deepest [m], how far the worst is beyond.
+// a spacing, which cannot be the particle size's doing; deepest [m], how far the worst is beyond;
+// putBack, how often a particle has been put back off these patches since the case began: rigid walls
+// are guarded, so that the first three are kept small by force.
 #include "functionObject.H"
 
 #include "dataFile.H"
 #include "particleFields.H"
 #include "surfaceSearch.H"
 #include "trackedSurface.H"
+
+#include <algorithm>
 
 namespace ispf
 {
@@ -26,17 +30,16 @@ class surfaceLeaks : public functionObject
 public:
     surfaceLeaks(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, c),
-          surface_(dict.get<word>("surface"), c),
           chosen_(c.cloud, dict, "fluid"),
           file_(startFolder() + "/surfaceLeaks.dat",
-                {"Particles on the wrong side of " + surface_.name()},
-                {"wrongSide", "through", "deepest"})
+                {"Particles on the wrong side of " + readSurface(dict)},
+                titles(dict.found("patches")))
     {
         label balance = 0;
         forDistances(3 * c.cloud.dx, [&](scalar d) { balance += d > 0 ? 1 : -1; });
         if (balance == 0)
-            dict.fail("zones", "No side of the surface " + surface_.name() +
-                                   " has more particles of these zones than the other.");
+            dict.fail(carried_ ? "surface" : "patches",
+                      "No side of this surface has more of the chosen particles than the other.");
         rightSide_ = balance > 0 ? 1 : -1;
     }
 
@@ -51,29 +54,86 @@ public:
             deepest = std::max(deepest, depth);
         });
         file_.begin(case_.time.value()) << wrong << through << deepest;
+        if (!carried_) file_ << putBack();
         file_.endRow();
     }
 
 private:
+    // Its name
+    word readSurface(const dictionary& dict)
+    {
+        if (dict.found("surface") == dict.found("patches"))
+            throw fatalError("surfaceLeaks wants either a surface or patches.", dict.where());
+        if (dict.found("surface"))
+        {
+            carried_ = std::make_unique<trackedSurface>(dict.get<word>("surface"), case_);
+            return carried_->name();
+        }
+        patches_ = dict.get<List<word>>("patches");
+        triSurface all;
+        for (const word& patch : patches_)
+        {
+            refuseOther(dict, patch);
+            all.append(readSTL(case_.time.constantFile("triSurface/" + patch + ".stl")));
+        }
+        all.weld(1e-3 * case_.cloud.dx);
+        search_ = surfaceSearch(std::move(all));
+        return join(patches_);
+    }
+
+    void refuseOther(const dictionary& dict, const word& patch) const
+    {
+        const dictionary all = dictionary::fromFile(case_.time.constantFile("boundary"));
+        List<word> still;
+        for (const word& name : all.dictKeys())
+            if (const dictionary& d = all.subDict(name);
+                d.get<word>("type") == "wall" && !d.found("motion"))
+                still.push_back(name);
+        if (std::find(still.begin(), still.end(), patch) == still.end())
+            dict.fail("patches", "Patch " + patch + " is no wall that stands still. " +
+                                     validWords("patch", still));
+    }
+
+    static List<word> titles(bool guarded)
+    {
+        List<word> all = {"wrongSide", "through", "deepest"};
+        if (guarded) all.push_back("putBack");
+        return all;
+    }
+
+    label putBack() const
+    {
+        label n = 0;
+        for (const patchBalance& b : case_.walls->balance())
+            if (std::find(patches_.begin(), patches_.end(), b.name) != patches_.end())
+                n += b.pushed;
+        return n;
+    }
+
     // Signed distances of the chosen particles no further than `radius`
     template <class Visit>
     void forDistances(scalar radius, const Visit& visit)
     {
-        surface_.update(case_.cloud.x);
-        const surfaceSearch search(surface_.now());
+        if (carried_)
+        {
+            carried_->update(case_.cloud.x);
+            search_ = surfaceSearch(carried_->now());
+        }
         const label n = case_.cloud.n();
         List<surfacePoint> nearest(n);
         parallelFor(n, [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
                 if (chosen_(case_.cloud, i))
-                    nearest[i] = search.nearest(case_.cloud.x[i].xyz(), radius);
+                    nearest[i] = search_.nearest(case_.cloud.x[i].xyz(), radius);
         });
         for (label i = 0; i < n; ++i)
             if (nearest[i].found && !nearest[i].rim)
                 visit(nearest[i].signedDistance(case_.cloud.x[i].xyz()));
     }
 
-    trackedSurface surface_;
+    std::unique_ptr<trackedSurface> carried_;
+    List<word> patches_;  // if it is not carried
+    surfaceSearch search_;
     particleSelection chosen_;
     dataFile file_;
     int rightSide_ = 1;

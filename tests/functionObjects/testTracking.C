@@ -177,3 +177,48 @@ TEST_CASE("a surface with as many particles on one side as on the other has no r
     auto r = s.start();
     CHECK_ERROR(functionObjectList(*r.c), "No side", 0);
 }
+
+TEST_CASE(
+    "particles below a rigid floor are counted until the guard has put them back, which is counted "
+    "too")
+{
+    testCase s;
+    s.addBlock("water", {0, 0, 0}, {6, 6, 4});
+    s.boundary =
+        "floor { type wall; representation mirror; }"
+        "lid { type wall; surface plane; point (0 0 4e-3); normal (0 0 1);"
+        "motion { velocity (0 0 0); } }";
+    triSurface floor;
+    const label patch = floor.addPatch("floor");
+    const scalar l = 6e-3;  // seen from below
+    floor.add({0, 0, 0}, {0, l, 0}, {l, l, 0}, patch);
+    floor.add({0, 0, 0}, {l, l, 0}, {l, 0, 0}, patch);
+    std::filesystem::create_directories(s.path + "/constant/triSurface");
+    writeSTL(floor, s.path + "/constant/triSurface/floor.stl");
+    s.functions = "leaks { type surfaceLeaks; patches (floor); }";
+    auto r = s.start();
+    functionObjectList f(*r.c);
+    f.start();
+    particleCloud& cloud = r.c->cloud;
+    cloud.x[14][2] = -0.2e-3, cloud.x[15][2] = -0.7e-3;
+    ++*r.time;
+    f.execute();
+    r.c->walls->exchange(cloud, 0.1);
+    ++*r.time;
+    f.execute();
+    const auto rows = s.rows("leaks/0/surfaceLeaks.dat");
+    for (const size_t column : {1, 2, 3, 4}) CHECK(rows.at(0).at(column) == 0);
+    CHECK(rows.at(1)[1] == 2);
+    CHECK(rows.at(1)[2] == 1);
+    CHECK(rows.at(1)[3] == relative(0.7e-3, 1e-6));
+    CHECK(rows.at(1)[4] == 0);
+    CHECK(rows.at(2)[1] == 0);
+    CHECK(rows.at(2)[4] == 2);
+
+    for (const word wrong : {"lid", "water"})
+    {
+        s.functions = "leaks { type surfaceLeaks; patches (" + wrong + "); }";
+        auto again = s.start();
+        CHECK_ERROR(functionObjectList(*again.c), "Valid patches are: floor", 0);
+    }
+}

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the histories say.  Variables: period, top (time of the full stroke within it) [s]; stroke [m3];
 # rest, the cavity's volume, and wall, the solid's [m3].
-# Input: diameter.dat (time, dD/D), volume.dat (time, swept, cavity, wall, control), pressure.dat (time, p/G)
+# Input: diameter.dat (time, dD/D), volume.dat (time, swept, cavity, openNet, wall, control, wallFeedback),
+# pressure.dat (time, p/G)
 function abs(a) { return a < 0 ? -a : a }
 function say(name, value) { printf "%s %.6g\n", name, value }
 FNR == 1 { file = FILENAME; sub(/.*\//, "", file); sub(/\.dat$/, "", file) }
@@ -23,6 +24,21 @@ function largest(file, column,    i, most) {
     for (i = 1; i <= n[file]; ++i) if (abs(row[file, i, column]) > abs(most)) most = row[file, i, column]
     return most
 }
+# Column less another where it is largest
+function largestLess(file, column, other,    i, v, most) {
+    for (i = 1; i <= n[file]; ++i) {
+        v = row[file, i, column] - row[file, i, other]
+        if (abs(v) > abs(most)) most = v
+    }
+    return most
+}
+# The ledger in row k and the cavity's defect [% of the stroke], as it is and less what control has put in
+function ledger(when, name, k,    c, title) {
+    split("time swept cavity openNet wall control wallFeedback", title, " ")
+    for (c = 2; c <= 7; ++c) say(when "." title[c], 100*row["volume", k, c]/stroke)
+    say(name, 100*(row["volume", k, 3] - row["volume", k, 2])/stroke)
+    say("own." name, 100*(row["volume", k, 3] - row["volume", k, 2] - row["volume", k, 6])/stroke)
+}
 # Largest difference [%] between the second cycle and the first at the same phase, linear between rows
 function cycleDifference(    i, j, t, a, d, most) {
     j = 1
@@ -42,13 +58,13 @@ END {
     if (k = rowAt("volume", top)) {
         say("syringeDiameter", 16*sqrt(largest("volume", 2)/stroke))
         if (rest) say("volumeIncrease", 100*largest("volume", 3)/rest)
-        say("volumeDefectPeak", 100*(row["volume", k, 3] - row["volume", k, 2])/stroke)
-        say("controlPeak", 100*row["volume", k, 5]/stroke)
-        if (wall) say("wallVolumeChange", 100*largest("volume", 4)/wall)
+        ledger("peak", "volumeDefectPeak", k)
+        if (wall) {
+            say("wallVolumeChange", 100*largest("volume", 5)/wall)
+            say("wallFeedback", 100*largest("volume", 7)/wall)
+            say("own.wallVolumeChange", 100*largestLess("volume", 5, 7)/wall)
+        }
     }
-    if (k = rowAt("volume", period)) {
-        say("volumeDefectEnd", 100*(row["volume", k, 3] - row["volume", k, 2])/stroke)
-        say("controlEnd", 100*row["volume", k, 5]/stroke)
-    }
+    if (k = rowAt("volume", period)) ledger("end", "volumeDefectEnd", k)
     if (k = rowAt("pressure", top)) say("pressurePeak", row["pressure", k, 2])
 }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Volume of the cavity against the volume that the plunger has pushed in, and the difference in time.
-# Variables: out; data, file of time, plunger volume and cavity's change [m3]; stroke [m3]
+# Volume of the cavity against the volume that the plunger has pushed in, and the difference in time, with
+# and without what control has put in.
+# Variables: out; data, file of time, plunger volume, cavity's change and, sixth, control [m3]; stroke [m3]
 width = 1200
 height = 520
 load common
@@ -18,6 +19,7 @@ set xrange [*:*]
 set yrange [*:*]
 set xlabel "time [s]"
 set ylabel "cavity - plunger [% of the stroke]"
-set key off
-plot data using 1:(100*($3 - $2)/stroke) with lines linestyle 2, 0 with lines linestyle 9
+plot data using 1:(100*($3 - $2)/stroke) with lines linestyle 2 title "as measured", \
+     data using 1:(100*($3 - $2 - $6)/stroke) with lines linestyle 1 title "less control", \
+     0 with lines linestyle 9 notitle
 unset multiplot
