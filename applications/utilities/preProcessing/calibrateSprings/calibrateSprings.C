@@ -4,7 +4,8 @@
 //
 // Each body, free and incompressible, carries a uniform uniaxial stress s (uniformStressTest); the
 // median strain e of its middle gives E = s/e (plane strain tension modulus, 4 G, in 2D), printed over
-// the modulus that the links name.  With k_e the printed modulus is the one to quote.
+// the modulus that the links name.  Where E or G asks for a modulus every body is judged, 5 % allowed; with
+// k_e nothing is asked: the printed modulus is the one to quote.
 #include "argList.H"
 #include "fileNames.H"
 #include "particleTable.H"
@@ -84,7 +85,8 @@ List<sample> blocks(int nDims, const List<int>& layers, bool disordered)
         else samples.push_back({name, make(40, n, 0), {{"along", vector::UnitX()}}, 6, false});
     }
     if (nDims == 3)
-        samples.push_back({kind + "cube, 12 layers", make(12, 12, 12), crystal(), 3.5, true});
+        // in a smaller one the core measures how unevenly the end faces are loaded along their edges
+        samples.push_back({kind + "cube, 16 layers", make(16, 16, 16), crystal(), 5, true});
     else samples.push_back({kind + "square, 24 layers", make(24, 24, 0), inPlane(), 5, true});
     return samples;
 }
@@ -145,9 +147,11 @@ List<int> layersAsked(const argList& args)
 
 int run(int argc, char** argv)
 {
-    argList args("calibrateSprings",
-                 "Measures the stiffness of the links of "
-                 "constant/structureProperties on slabs, cubes and the case's body.");
+    argList args(
+        "calibrateSprings",
+        "Measures the stiffness of the links of constant/structureProperties on slabs, "
+        "cubes and the case's body. Where these ask for a modulus by E or G, each measured "
+        "one must be within 5 % of it, else the exit status is 1; with k_e none is judged.");
     args.addOption("layers", "list", "thickness of the slabs in particles (default \"3 4 5 8\")");
     args.addSwitch("bodyOnly", "only the case's own body");
     if (!args.parse(argc, argv)) return 0;
@@ -184,10 +188,15 @@ int run(int argc, char** argv)
            << padded("body", 28) << padded("particles", 10) << "\n";
     range found;
     for (const sample& s : samples) measure(properties, s, found);
+    info() << "\nfrom " << str(found.low, 3) << " to " << str(found.high, 3) << ": ";
+    if (properties.found("k_e"))
+    {
+        info() << "not judged, k_e asks for no modulus\n\nEnd\n";
+        return 0;
+    }
     const bool calibrated = found.low >= least && found.high <= most;
-    info() << "\nfrom " << str(found.low, 3) << " to " << str(found.high, 3) << ": "
-           << (calibrated ? "within " : "NOT within ") << least << " to " << most << "\n\nEnd\n";
-    return 0;
+    info() << (calibrated ? "within " : "NOT within ") << least << " to " << most << "\n\nEnd\n";
+    return calibrated ? 0 : 1;
 }
 
 }  // namespace
