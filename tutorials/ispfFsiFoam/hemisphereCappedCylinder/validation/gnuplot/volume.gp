@@ -19,7 +19,13 @@ set xrange [*:*]
 set yrange [*:*]
 set xlabel "time [s]"
 set ylabel "cavity - plunger [% of the stroke]"
-plot data using 1:(100*($3 - $2)/stroke) with lines linestyle 2 title "as measured", \
-     data using 1:(100*($3 - $2 - $6)/stroke) with lines linestyle 1 title "less control", \
-     0 with lines linestyle 9 notitle
+stats data using 6 nooutput
+if (STATS_min == 0 && STATS_max == 0) {
+    plot data using 1:(100*($3 - $2)/stroke) with lines linestyle 2 title "nothing controlled", \
+         0 with lines linestyle 9 notitle
+} else {
+    plot data using 1:(100*($3 - $2)/stroke) with lines linestyle 2 title "as measured", \
+         data using 1:(100*($3 - $2 - $6)/stroke) with lines linestyle 1 title "less control", \
+         0 with lines linestyle 9 notitle
+}
 unset multiplot
