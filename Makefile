@@ -58,7 +58,7 @@ quoted    = $(foreach l,$(1),-iquote src/$(l))
 archives  = $(foreach l,$(call reverse,$(LIBS)),$(if $(wildcard src/$(l)/*.C),$(B)/lib$(l).a))
 archivesOf= $(foreach l,$(call reverse,$(call ordered,$(1))),$(if $(wildcard src/$(l)/*.C),$(B)/lib$(l).a))
 
-.PHONY: all test demo clean help format
+.PHONY: all test demo bench clean help format
 all: ## build every library and program
 help: ## this list
 	@grep -hE '^[a-zA-Z]+:.*## ' Makefile | sed -E 's/^([a-zA-Z]+):.*## /  \1\t/' | expand -t 14
@@ -109,6 +109,9 @@ test: all testPrograms ## build and run every test (at most 10 minutes)
 
 demo: ## install what is missing, build, run the benchmark, draw it, compare with the published numbers
 	@bin/demo
+
+bench: all ## the pressure solvers on the demo's geometry, with the paper's scheme
+	@bin/benchPressure
 
 format: ## clang-format all sources in place
 	@clang-format -i $$(git ls-files '*.C' '*.H')

@@ -43,7 +43,8 @@ void monolithicPreconditioner::setup()
     for (label i = 0; i < cloud.n(); ++i)
         position[i] = cloud.x[i].xyz(), group[i] = std::uint8_t(cloud.phase[i]);
     options_.cellSize = c.kernel->support();
-    multigrid_ = std::make_unique<cellMultigrid>(L_, position, options_, group);
+    if (multigrid_) multigrid_->rebuild(L_, position, group);
+    else multigrid_ = std::make_unique<cellMultigrid>(L_, position, options_, group);
 }
 
 void monolithicPreconditioner::buildLaplacian()

@@ -39,7 +39,8 @@ void solidBlock::setup(const blockMatrix3& K, scalar dt, const List<scalar>& A,
     List<vector> x(K.size());
     for (label i = 0; i < K.size(); ++i) x[i] = cloud.x[i].xyz();
     options_.cellSize = cellSize;
-    multigrid_ = std::make_unique<cellMultigrid>(scalarBlock_, x, options_);
+    if (multigrid_) multigrid_->rebuild(scalarBlock_, x);
+    else multigrid_ = std::make_unique<cellMultigrid>(scalarBlock_, x, options_);
 }
 
 void solidBlock::solve(const List<scalar>& A, const particleCloud& cloud, List<vec4>& u) const

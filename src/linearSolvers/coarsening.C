@@ -37,31 +37,36 @@ public:
 
     void add(label aggregate, piece& to, scalar* moments)
     {
-        const size_t rowBegin = to.column.size();
+        // Place of an aggregate in the row at work, -1 if it is not there
+        static thread_local List<label> place;
+        if (label(place.size()) < agg_.n) place.resize(agg_.n, -1);
+        row_.assign(1, {aggregate, 0});
+        place[aggregate] = 0;
         for (label m = agg_.start[aggregate]; m < agg_.start[aggregate + 1]; ++m)
         {
-            addRow(agg_.member[m], aggregate, rowBegin, to);
+            addRow(agg_.member[m], place.data());
             if (m % 8 == 0) addMoments(agg_.member[m], aggregate, moments);
         }
-        to.length.push_back(label(to.column.size() - rowBegin));
+        for (const entry& e : row_) place[e.column] = -1;
+        for (size_t k = 1; k < row_.size(); ++k)
+            to.column.push_back(row_[k].column), to.value.push_back(row_[k].value);
+        to.length.push_back(label(row_.size()) - 1);
     }
 
 private:
-    void addRow(label i, label own, size_t rowBegin, piece& to)
+    struct entry
     {
-        // slot[J] is right only if the entry it points to is of this row and names J
-        static thread_local List<label> slot;
-        if (label(slot.size()) < agg_.n) slot.resize(agg_.n);
+        label column;
+        float value;
+    };
+
+    void addRow(label i, label* place)
+    {
         fine_.A.forRow(i, [&](label j, float value) {
             const label J = agg_.of[j];
-            if (J == own || J < 0) return;
-            size_t s = slot[J];
-            if (s < rowBegin || s >= to.column.size() || to.column[s] != J)
-            {
-                s = slot[J] = label(to.column.size());
-                to.column.push_back(J), to.value.push_back(0);
-            }
-            to.value[s] += value;
+            if (J < 0) return;
+            if (place[J] < 0) place[J] = label(row_.size()), row_.push_back({J, 0});
+            row_[place[J]].value += value;
         });
     }
 
@@ -82,6 +87,7 @@ private:
     const cellAggregates& agg_;
     const multigridLevel& coarse_;
     const float far_;
+    List<entry> row_;  // sums of the row at work, first those inside the aggregate
 };
 
 void placeAggregates(const multigridLevel& fine, const cellAggregates& aggregates, float cellSize,
@@ -136,10 +142,10 @@ void coarsen(const multigridLevel& fine, const cellAggregates& aggregates, float
 {
     placeAggregates(fine, aggregates, cellSize, coarse);
     List<piece> pieces((aggregates.n + blockRows - 1) / blockRows);
-    rowAccumulator rows(fine, aggregates, coarse, cellSize);
     const List<scalar> moments =
         blockSums(aggregates.n, 2, [&](label begin, label end, scalar* sums) {
             sums[0] = sums[1] = 0;
+            rowAccumulator rows(fine, aggregates, coarse, cellSize);
             for (label a = begin; a < end; ++a) rows.add(a, pieces[begin / blockRows], sums);
         });
     const scalar s = moments[0] / moments[1];

@@ -10,6 +10,7 @@
 #include "diagonalPreconditioner.H"
 #include "incompleteFactor.H"
 #include "luSolver.H"
+#include <ctime>
 #include <ostream>
 
 namespace ispf
@@ -32,6 +33,29 @@ void passOver(const dictionary& dict, const List<word>& keys, const word& choice
                << std::endl;
 }
 
+// CPU time of all threads between calls; looks at no clock unless asked to
+class cpuLaps
+{
+public:
+    explicit cpuLaps(bool on) : on_(on), last_(on ? std::clock() : 0) {}
+    scalar lap()
+    {
+        if (!on_) return -1;
+        const std::clock_t now = std::clock(), before = last_;
+        last_ = now;
+        return scalar(now - before) / CLOCKS_PER_SEC;
+    }
+
+private:
+    bool on_;
+    std::clock_t last_;
+};
+
+bool profiling(const dictionary& dict)
+{
+    return dict.getOrDefault("profiling", false);
+}
+
 class iterativeSolver : public linearSolver
 {
 public:
@@ -39,7 +63,8 @@ public:
         : method_(solver),
           dict_(dict),
           name_(dict.choose("preconditioner", preconditionerWords)),
-          controls_(solverControls::fromDict(dict))
+          controls_(solverControls::fromDict(dict)),
+          profiling_(profiling(dict))
     {
         if (solver == "PCG") krylov_ = std::make_unique<PCG>(controls_, fieldName);
         if (solver == "PBiCGStab") krylov_ = std::make_unique<PBiCGStab>(controls_, fieldName);
@@ -69,18 +94,27 @@ public:
         solverControls controls = controls_;
         controls.absTol = std::max(controls.absTol, system.floor);
         krylov_->setControls(controls);
+        cpuLaps cpu(profiling_);
         const preconditioner& M = prepare(system);
-        if (floating_.empty()) return krylov_->solve(system.A, M, b, x);
-
-        List<scalar> compatible(b);
-        floating_.project(compatible);
-        floating_.project(x);
-        const solverPerformance done = krylov_->solve(system.A, M, compatible, x);
-        floating_.project(x);
+        const scalar setup = cpu.lap();
+        solverPerformance done = iterate(system.A, M, b, x);
+        done.setupCpu = setup, done.solveCpu = cpu.lap();
         return done;
     }
 
 private:
+    solverPerformance iterate(const csrMatrix& A, const preconditioner& M, const List<scalar>& b,
+                              List<scalar>& x)
+    {
+        if (floating_.empty()) return krylov_->solve(A, M, b, x);
+        List<scalar> compatible(b);
+        floating_.project(compatible);
+        floating_.project(x);
+        const solverPerformance done = krylov_->solve(A, M, compatible, x);
+        floating_.project(x);
+        return done;
+    }
+
     // Builds the preconditioner, and finds the floating parts of a symmetric system
     const preconditioner& prepare(const linearSystem& system)
     {
@@ -118,6 +152,7 @@ private:
     dictionary dict_;  // for messages
     word name_;        // of the preconditioner
     solverControls controls_;
+    bool profiling_;
     multigridOptions options_;
     std::unique_ptr<cellMultigrid> multigrid_;
     std::unique_ptr<preconditioner> preconditioner_;
@@ -128,7 +163,8 @@ private:
 class directSolver : public linearSolver
 {
 public:
-    directSolver(const word& fieldName, const dictionary& dict) : fieldName_(fieldName)
+    directSolver(const word& fieldName, const dictionary& dict)
+        : fieldName_(fieldName), profiling_(profiling(dict))
     {
         passOver(dict,
                  {"preconditioner", "tolerance", "relTol", "absTol", "maxIter", "restart", "cycle",
@@ -148,15 +184,22 @@ public:
         once.maxIter = 1;
         convergence state(once, word("direct") + (system.symmetric ? "Cholesky" : "LU"), fieldName_,
                           norm(right), norm(r));
-        if (system.symmetric) cholesky_.factorise(system.A), cholesky_.apply(right, x);
-        else lu_.factorise(system.A), lu_.apply(right, x);
+        cpuLaps cpu(profiling_);
+        if (system.symmetric) cholesky_.factorise(system.A);
+        else lu_.factorise(system.A);
+        const scalar setup = cpu.lap();
+        if (system.symmetric) cholesky_.apply(right, x);
+        else lu_.apply(right, x);
         residual(system.A, right, x, r);
         state.stop(1, norm(r));
-        return state.result();
+        solverPerformance done = state.result();
+        done.setupCpu = setup, done.solveCpu = cpu.lap();
+        return done;
     }
 
 private:
     word fieldName_;
+    bool profiling_;
     choleskySolver cholesky_;
     luSolver lu_;
 };

@@ -40,6 +40,9 @@ word solverPerformance::line() const
 void solverPerformance::print() const
 {
     info() << line() << std::endl;
+    if (setupCpu >= 0)
+        info() << solverName << ":  CPU time for " << fieldName << ", set-up = " << setupCpu
+               << " s, solution = " << solveCpu << " s" << std::endl;
 }
 
 convergence::convergence(const solverControls& controls, const word& solver, const word& field,

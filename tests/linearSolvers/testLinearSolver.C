@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "capturedLog.H"
 #include "cellMultigrid.H"
 #include "constantNullSpace.H"
 #include "jitteredLattice.H"
@@ -64,6 +65,28 @@ TEST_CASE("every combination of words solves a symmetric system, a floating part
             for (size_t i = 0; i < x.size(); ++i)
                 difference = std::max(difference, std::abs(x[i] - exact[i]));
             CHECK(difference < 1e-5);
+        }
+}
+
+TEST_CASE("CPU times are in the log where profiling is asked for, and only there")
+{
+    jitteredLattice::choices c;
+    c.held = [](const vector& x) { return x[0] < 1 ? 0.5 : 0; };
+    const jitteredLattice lattice(10, 10, 10, c);
+    const linearSystem system{lattice.A, true, &lattice.x, lattice.support};
+    const List<scalar> b = randomVector(lattice.A.size(), 1);
+    for (const word solver : {"solver PCG; preconditioner multigrid;", "solver direct;"})
+        for (const bool asked : {false, true})
+        {
+            capturedLog log;
+            List<scalar> x(b.size(), 0);
+            const solverPerformance done =
+                linearSolver::New("p", entries(solver + (asked ? "profiling yes;" : "")))
+                    ->solve(system, b, x);
+            done.print();
+            CHECK(log.contains("Solving for p"));
+            CHECK(log.contains("CPU time for p, set-up = ") == asked);
+            CHECK((done.setupCpu >= 0 && done.solveCpu >= 0) == asked);
         }
 }
 
