@@ -6,7 +6,7 @@
 //         tolerance   1e-4;     // of the step's initial residual
 //         absTolerance 1e-6;    // times the velocity scale, per particle: a floor for warm starts
 //         maxIter     150;
-//         theta       0.95;     // memory of the pressure stabiliser
+//         theta       0.95;     // memory of the pressure stabiliser; fluid alone: 0, it moves on
 //         volumeFeedback 0.1;   // relaxes J - 1 of the solid, per step; booked by the volume ledger
 //         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
 //     }
@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ispf
 {
@@ -37,7 +38,7 @@ public:
           dict_(c.solution.subOrEmptyDict("monolithic")),
           system_(c),
           preconditioner_(system_, dict_),
-          theta_(dict_.getInRangeOrDefault("theta", 0, 1, 0.95)),
+          theta_(dict_.getInRangeOrDefault("theta", 0, 1, c.structure ? 0.95 : 0)),
           alpha_(dict_.getInRangeOrDefault("volumeFeedback", 0, 1, 0.1)),
           tolerance_(dict_.getInRangeOrDefault("tolerance", 1e-14, 1, 1e-4)),
           absTolerance_(dict_.getInRangeOrDefault("absTolerance", 0, 1, 1e-6)),
@@ -62,6 +63,7 @@ private:
     word tooFar(scalar dt, const List<scalar>& z) const;
     void advance(scalar t, scalar dt, int depth);
     scalar velocityScale() const;
+    scalar rounding(scalar dt, const List<scalar>& z) const;
 
     fsiCase& c_;
     dictionary dict_;
@@ -87,6 +89,17 @@ scalar monolithic::velocityScale() const
         return most;
     });
     return std::max({u, c_.walls->maxWallSpeed(), scalar(0)});
+}
+
+// What rounding leaves of a row: of the springs' positions and of the pressure gradient [m/s].  At rest
+// it is the only scale there is
+scalar monolithic::rounding(scalar dt, const List<scalar>& z) const
+{
+    const particleCloud& cloud = c_.cloud;
+    scalar x = 0, p = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+        x = std::max(x, cloud.x[i].xyz().norm()), p = std::max(p, std::abs(z[4 * i + 3]));
+    return 16 * std::numeric_limits<scalar>::epsilon() * (x / dt + dt / (c_.rho * cloud.dx) * p);
 }
 
 // No limit of stability; where the step is adjusted, the fluid's motion rules it for accuracy
@@ -170,7 +183,8 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     z = guess(dt);
     solverControls controls;
     controls.tolerance = 0, controls.relTol = tolerance_, controls.maxIter = maxIter_;
-    controls.absTol = absTolerance_ * std::sqrt(scalar(cloud.n())) * velocityScale();
+    controls.absTol =
+        std::sqrt(scalar(cloud.n())) * std::max(absTolerance_ * velocityScale(), rounding(dt, z));
     FGMRES solver(controls, "Up", maxIter_);
     const solverPerformance result = solver.solve(system_, preconditioner_, b, z);
     result.print();

@@ -70,6 +70,24 @@ ISPF_HOT void secondRange(const view& v, const scalar* tau, label begin, label e
     }
 }
 
+// Fluid alone.  D meets the same sums of tau G p in u = u* - tau G p: what is left for p is the symmetric
+// Laplacian.  Beyond a wall p goes on linearly.
+ISPF_HOT void secondFluidRange(const view& v, scalar tau, label begin, label end, const vec4* gs,
+                               scalar* cp)
+{
+    for (label i = begin; i < end; ++i)
+    {
+        pairSums sums;
+        sums.add(v.list, v.x, gs, i, v.first(i), v.mid(i));
+        simd4 beyond = {};
+        for (std::int64_t k = v.mid(i); k < v.last(i); ++k)
+            beyond += v.list.F[k] * (v.x[i].s - v.x[v.list.index[k]].s);
+        beyond *= gs[i].s;
+        cp[i] = tau * (2 * (beyond[0] + beyond[1] + beyond[2] - sums.lap[3]) -
+                       sums.divergence(v.B.all[i]));
+    }
+}
+
 ISPF_HOT void viscousRange(const view& v, label begin, label end, vec4* out)
 {
     for (label i = begin; i < end; ++i)
@@ -133,8 +151,10 @@ void monolithicRows::setSolid(const volumeConstraint* volume, const solidSurface
     volume_ = volume, surface_ = surface;
 }
 
-void monolithicRows::setTau(const List<scalar>& tau)
+void monolithicRows::setTau(const List<scalar>& tau, scalar fluidTau)
 {
+    fluidTau_ = fluidTau;
+    if (!volume_) return;
     pairTau_.resize(list_->index.size());
     const auto tauOf = [&](label j) {
         if (j < cloud_->n()) return tau[j];
@@ -187,7 +207,8 @@ void monolithicRows::secondPass(const List<vec4>& gs, List<scalar>& cp) const
     cp.resize(cloud_->n());
     const view v{*list_, *B_, cloud_->x.data(), gs.data(), cloud_->phase.data(), scale_.data()};
     parallelFor(cloud_->n(), [&](label b, label e) {
-        secondRange(v, pairTau_.data(), b, e, gs.data(), cp.data());
+        if (volume_) secondRange(v, pairTau_.data(), b, e, gs.data(), cp.data());
+        else secondFluidRange(v, fluidTau_, b, e, gs.data(), cp.data());
     });
 }
 

@@ -27,7 +27,7 @@ void monolithicSystem::setup(scalar dt, const volumeConstraint* volume, const so
                 dt * (cloud.uFixed[i] ? meanTangent : K->diagonal[i].trace() / cloud.nDims);
         tau_[i] = cloud.volume() / diagonal_[i];
     }
-    rows_.setTau(tau_);
+    rows_.setTau(tau_, dt / c_.rho);
 }
 
 // Where nothing fixes the pressure its level is free, and a difference divergence does not sum to zero
