@@ -2,13 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # checkParticles on generated particles: its last line and its status
 set -uo pipefail
-cd "$(dirname "$0")/.."
-PATH=$PWD/$ISPF_BIN:$PATH
-export OMP_NUM_THREADS=1
-failures=0
-fail() { echo "  FAILED: $1"; failures=$((failures+1)); }
-scratch=$(mktemp -d); trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
+. "$(dirname "$0")/cases/functions"
+cd "$scratch" || exit 1
 mkdir system constant
 
 # A tank of water on an elastic floor of so many millimetres, held at its ends; dx 1 mm
@@ -48,6 +43,17 @@ grep -q '^Failed 1 check\.$' log.2 || fail "two layers too few"
 grep -q 'Time per step .* s by the clock' log.4 && grep -q '^    Memory' log.4 || fail "no prediction"
 
 checkParticles -steps 0 | grep -q 'Time per step' && fail "-steps 0 makes steps"
+for steps in -1 2.5 many; do checkParticles -steps $steps > out 2>&1 && fail "-steps $steps is accepted"; done
+refused() { # what it says, what is wrong
+    checkParticles > out 2>&1 && fail "$2 passes"
+    grep -q "$1" out || fail "$2: $(tail -n 6 out)"
+}
+echo "coupling projection;" > system/sphSolution
+refused '^ \*\*\*deltaT 0.001 s is beyond the stiffness limit' "a deltaT that the solver refuses"
+echo "coupling monolithic;" > system/sphSolution
+echo "writeIntervall 1;" >> system/controlDict
+refused "writeIntervall.*writeInterval" "a word that nobody reads"
+sed -i '/writeIntervall/d' system/controlDict
 rm 0/particles.hdf
 checkParticles > log.none 2>&1 && fail "a case without particles passes"
 grep -q particles.hdf log.none || fail "no word of what is missing"

@@ -19,6 +19,7 @@ continued() { # template name
     local ledger=volumeLedger.dat
     [ "$(tail -n 1 "../$2/postProcessing/volumeLedger/0/$ledger")" = \
       "$(tail -n 1 postProcessing/volumeLedger/0.13/$ledger)" ] || fail "$2: another ledger"
+    seriesComplete "$2"
 }
 adjusted='setEntry system/controlDict writeControl adjustableRunTime
     setEntry system/controlDict writeInterval 0.13; echo "adjustTimeStep yes;" >> system/controlDict'
@@ -43,6 +44,7 @@ solved
 [ "$(grep -m 1 '^Time = ' log)" != "Time = 0.005" ] || fail "a killed run begins anew"
 (cd ../notKilled && solved)
 same 0.5 ../notKilled/0.5 "continued after kill -9"
+seriesComplete "killed"
 
 # Large enough for several threads
 for template in piston membrane; do

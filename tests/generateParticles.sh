@@ -3,14 +3,8 @@
 # generateParticles on a small STL case, then on what people get wrong: each a clear error, status 1,
 # and no particles
 set -uo pipefail
-cd "$(dirname "$0")/.."
-root=$PWD
-PATH=$PWD/$ISPF_BIN:$PATH
-export OMP_NUM_THREADS=1
-failures=0
-fail() { echo "  FAILED: $1"; failures=$((failures+1)); }
-scratch=$(mktemp -d); trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
+. "$(dirname "$0")/cases/functions"
+cd "$scratch" || exit 1
 mkdir system constant
 echo "walls { type wall; }" > constant/boundary
 
@@ -38,7 +32,8 @@ refused() {
     for word in "$@"; do grep -qF -- "$word" out || fail "$what: no '$word' in: $(tail -n 8 out)"; done
 }
 stl='file "constant/cube.stl"; unit mm;'
-igs="file \"$root/tutorials/ispfFsiFoam/hemisphereCappedCylinder/constant/geometry/hccB.igs\";"
+geometry=$ispfRoot/tutorials/ispfFsiFoam/hemisphereCappedCylinder/constant/geometry
+igs="file \"$geometry/hccB.igs\";"
 
 cube
 dict "$stl"
@@ -62,6 +57,8 @@ dict "$stl p \"1 + \";"
 refused "broken formula" "1 + "
 dict "$stl p \"sqrt(x - 0.005)\";"
 refused "formula without a finite value" "nan at (0.0005"
+dict "$stl p \"x = 5\";"
+refused "assignment" "must not assign"
 
 dict 'file "constant/missing.stl"; unit mm;'
 refused "missing file" "no geometry file" "constant/missing.stl"
@@ -87,6 +84,95 @@ dict "$stl colur (1 2 3);"
 refused "misspelt entry" "colur"
 dict "phase2 x;"
 refused "zone without shape" "file or a shape"
+
+# Shapes that cannot be, and numbers of no use
+shape() { echo "dx 1e-3; placement lattice; ${2:-} zones { water { phase fluid; shape $1 } ${3:-} }" > system/particleDict; }
+box="box; min (0 0 0); max (0.01 0.01 0.01);"
+tube="point1 (0 0 0); point2 (0 0 0.01);"
+shape "sphere; centre (0 0 0); radius -0.01;"
+refused "negative radius" "'radius' is -0.01, but must lie between" "water.radius at line 1"
+shape "sphere; centre (0 0 0); radius 10;"
+refused "a radius in millimetres" "'radius' is 10, but must lie between"
+shape "annulus; $tube innerRadius 0.02; outerRadius 0.01;"
+refused "inner beyond outer" "innerRadius 0.02 must be smaller than the outerRadius 0.01"
+shape "cylinder; point1 (0 0 0); point2 (0 0 0); radius 0.01;"
+refused "no length" "the same point"
+shape "box; min (0 0 0); max (0.01 -0.01 0.01);"
+refused "box inside out" "Every coordinate of max"
+shape "ellipsoid; centre (0 0 0); semiAxes (0.01 0.01 0);"
+refused "flat ellipsoid" "Each of the semiAxes must lie between"
+shape "box; min (0 0 0); max (10 10 10);"
+refused "too many particles" "room for 1e+12 particles"
+shape "$box" "stripLayers -2;"
+refused "strip" "'stripLayers' is -2, but must lie between 1 and 100"
+shape "$box" "weldTolerance 1;"
+refused "weld" "'weldTolerance' is 1, but must lie between 0 and 0.0005"
+shape "$box" "surfaceSize -1;"
+refused "mesh size" "'surfaceSize' is -1, but must lie between 1e-05 and 1"
+shape "$box" "defaultPatch wals;"
+refused "patch that is nowhere" "belongs to patch wals" "Did you mean 'walls'?"
+shape "$box U (0 0 1);" "nDims 2;"
+refused "velocity out of the plane" "U must not point along z"
+shape "$box" "" '"my zone" { phase fluid; shape sphere; centre (0 0 0); radius 1; }'
+refused "name with a blank" "cannot be a name"
+dict 'file "";'
+refused "no file name" "is not known" "water.file at line 1"
+
+# Zones that overlap: who takes how much of whom, and where
+shape "$box" "" "ice { phase fluid; shape box; min (0.008 0 0); max (0.012 0.01 0.01); }"
+generateParticles > out 2>&1 || fail "overlap: $(tail -n 5 out)"
+grep -q "overlap: ice takes 2e-07 m3 of water, which comes before it, around (0.009 0.005 0.005)" out || fail "overlap: $(cat out)"
+# A rigid body is a hole with a patch of its own name
+shape "$box" "" "pillar { phase rigid; shape box; min (0.004 0 0); max (0.006 0.01 0.01); }"
+refused "rigid zone without a patch" "belongs to patch pillar" "Valid patches are: walls"
+echo "pillar { type wall; }" >> constant/boundary
+generateParticles > out 2>&1 && grep -q '^water .* 800  *+0.00' out && ! grep -q overlap out || fail "pillar: $(cat out)"
+grep -q "facet" constant/triSurface/pillar.stl || fail "no surface of the pillar"
+shape "$box" "" "pillar { phase rigid; file \"constant/cube.stl\"; unit mm; }"
+cube 1
+refused "leaky rigid body" "pillar (rigid)" "not closed"
+echo "walls { type wall; }" > constant/boundary
+
+# Two zones of one file, which both state its unit; touching volumes, with a face each or one in common
+cat > constant/two.geo <<'END'
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 10, 10, 10};
+Box(2) = {10, 0, 0, 5, 10, 10};
+END
+geo='phase fluid; file "constant/two.geo"; unit mm;'
+dict 'file "constant/two.geo"; unit mm;'
+generateParticles > out 2>&1 && grep -q '^water .* 1500  *+0.00' out || fail "two touching volumes: $(cat out)"
+printf '%s\n' 'BooleanFragments { Volume{1}; Delete; }{ Volume{2}; Delete; }' 'Physical Volume("ice") = {2};' >> constant/two.geo
+generateParticles > out 2>&1 && grep -q '^water .* 1500  *+0.00' out || fail "two volumes with a common face: $(cat out)"
+for ice in "group ice;" "faces (11);" "box ((0.014 -1 -1) (1 1 1));"; do
+    echo "dx 1e-3; placement lattice; zones { water { $geo box ((-1 -1 -1) (0.001 1 1)); } ice { $geo $ice } }" > system/particleDict
+    generateParticles > out 2>&1 && grep -q '^water .* 1000  *+0.00' out && grep -q '^ice .* 500  *+0.00' out ||
+        fail "two zones of one file, $ice: $(cat out)"
+done
+sed -i 's/\(ice.*\)unit mm/\1unit cm/' system/particleDict
+refused "two units of one file" "An earlier zone reads the same file in mm" "ice.unit at line 1"
+dict 'file "constant/two.geo"; unit mm; faces (1 99);'
+refused "no such face" "has no face 99" "1 to 11"
+# One file per part, and a patch of one of them
+echo "end { type wall; }" >> constant/boundary
+cube
+cat > system/particleDict <<'END'
+dx 1e-3; placement lattice;
+zones { water { phase fluid; file "constant/two.geo"; unit mm; group ice; } cube { phase fluid; file "constant/cube.stl"; unit mm; } }
+patches { end { box ((0.0149 -1 -1) (1 1 1)); } }
+END
+generateParticles > out 2>&1 || fail "a patch of one file of two: $(tail -n 8 out)"
+[ "$(grep -c facet constant/triSurface/end.stl)" -gt 1 ] || fail "no patch end"
+sed -i 's/0.0149/0.1/' system/particleDict
+refused "patch in no file" "No face has the box" "cube.stl has 1 faces" "two.geo has 11 faces"
+echo "walls { type wall; }" > constant/boundary
+# A face that is blue, which gmsh also says of faces without a colour
+sed 's/^314,80.000001088,0.,0.,4HRED3; /314,0.,0.,100.,4HBLUE;         /' "$geometry/hccB.igs" > constant/blue.igs
+dict 'file "constant/blue.igs"; colour (1 2 3);' 5e-3
+refused "colour beside blue" "with the colours (0 0 255) "
+head -c 71000 "$geometry/hccB.igs" > constant/cut.igs
+dict 'file "constant/cut.igs";' 5e-3
+refused "IGES without its end" "cut.igs is cut off"
 cube 1
 dict "$stl"
 refused "leaky surface" "not closed" "water"

@@ -32,6 +32,12 @@ printf '# Time\tdDoverD\tdiameter\n2\t10\t22\n3\t15\t23\n' > "$scratch/2.dat"
 joined=$(awk -v want="diameter|dDoverD" -f validation/awk/series.awk "$scratch/0.dat" "$scratch/2.dat" | tr '\n' ';')
 [ "$joined" = "0 20 0;1 21 5;2 22 10;3 23 15;" ] || fail "joined histories: $joined"
 
+# The pace of a log that begins at 5 s, starts again at 6 s and breaks off in its last step
+step() { printf 'deltaT = 0.5\nTime = %s\n' "$1"; [ $# = 1 ] || printf 'ExecutionTime = %s s  ClockTime = %s s\n' "$2" "$3"; }
+{ step 5.5 2 4; step 6 4 8; step 6.5 1 2; step 7; } > "$scratch/log"
+timing=$(awk -v period=5400 -f validation/awk/timing.awk "$scratch/log" | tr '\n' ';')
+[ "$timing" = "reached 6.5;steps 3;timePerStep 3.33333;timePerPeriod 10;" ] || fail "timing: $timing"
+
 # Map of a known flow at rest in the mean: its ring, peak and profile
 awk 'BEGIN { print "# x y U_x U_y U_n"
     for (j = -8; j <= 40; ++j) for (i = -60; i <= 60; ++i) {

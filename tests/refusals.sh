@@ -56,6 +56,72 @@ newCase membrane limits; place
 setEntry $solution coupling projection
 limited stiffness "" 0.1
 
+# ---- words that nobody reads, values out of range, files that are missing ------------------------------
+# with file, text, what is said: a case of one step, the text added to the file
+with() {
+    cp "$1" kept; printf '%s\n' "$2" >> "$1"
+    refused "$3"
+    mv kept "$1"
+}
+newCase piston words; place
+setEntry $control endTime 0.01
+with $control "writeIntervall 5;" "'writeIntervall'.*Did you mean 'writeInterval'"
+with $control "maxCo 0.5;" "Nothing reads the entry 'maxCo'"
+with $control "functions { f { type minMax; zones (lake); } }" "controlDict.functions.f.zones at line"
+with $control "stopAt end;" "Valid stopAts are: endTime"
+with constant/g "gravity (0 0 1);" "Nothing reads the entry 'gravity'"
+with constant/g "value (0 -9.81 1);" "'value' must not have a component along z"
+with constant/physicalProperties "bodyForce { lake (1 0 0); }" "Unknown zone 'lake'"
+with constant/physicalProperties "bodyForce { water (1 0 1); }" "'water' must not have a component along z"
+p="solver PCG; preconditioner DIC;"
+with $solution "solvers { p { $p tolerance 1; } }" "'tolerance' is 1, but must lie between 0 and 0.1"
+with $solution "solvers { p { $p relTol 1; } }" "'relTol' is 1, but must lie between 0 and 0.5"
+with $solution "solvers { p { $p maxIter 0; } }" "'maxIter' is 0, but must lie between 1 and"
+with $solution "solvers { p { $p maxIter 2.5; } }" "'maxIter' should be a whole number"
+setEntry $solution coupling monolithic
+with $solution "monolithic { tolerance 0.9; }" "'tolerance' is 0.9, but must lie between 1e-14 and 0.1"
+with $solution "monolithic { maxIter -3; }" "'maxIter' is -3, but must lie between 1 and"
+with $solution "monolithic { solid { refactorInterval -4; } }" "'refactorInterval' is -4, but must lie between"
+mv constant/boundary kept
+refused "Cannot read .*constant/boundary: No such file"
+sed '/^piston/,/^}/d' kept > constant/boundary
+refused "wallParticles.hdf has [0-9]+ points of a patch 'piston'"
+sed '/^top/d' kept > constant/boundary
+refused "openSites.hdf has [0-9]+ points of a patch 'top'"
+sed 's/direction (0 1 0)/direction (0 1 1)/' kept > constant/boundary
+refused "patch piston must not move along z"
+mv kept constant/boundary
+setEntry $control deltaT 0.02; setEntry $control writeInterval 1  # longer than the run
+solved
+[ -e 0.01/particles.hdf ] && seriesComplete "one short step" || fail "no step: $(tail -n 4 log)"
+newCase membrane flat; place
+setEntry $control endTime 0.01
+with $solution "volumeLedger { zone blood; }" "sphSolution.volumeLedger.zone at line"
+with $solution "volumeLedger { cavity wall_to_blood; }" "Valid surfaces are: .*wall_to_bath wall_to_chamber"
+echo "functions { c { type cavityVolume; surface wall_to_chamber; } }" >> $control
+solved
+grep -qi "inf" postProcessing/c/0/*.dat && fail "a flat cavity's change: $(cat postProcessing/c/0/*.dat)"
+
+# ---- the other programs --------------------------------------------------------------------------------
+denied() { # what is said, command
+    "${@:2}" > log 2>&1 && fail "accepted: ${*:2}"
+    says "$1"
+}
+newCase membrane programs; place
+denied "numbers from 2 to 100" calibrateSprings -layers 1000000000
+denied "Cannot read .*planeSampleDict: No such file" planeSample
+: > system/planeSampleDict
+denied "There is no plane" planeSample
+echo "a { point (0 0 0); normal (0 0 1); xAxis (1 0 0); xRange (0 0.2); yRange (0 0.2); spacing 0.01;
+    fields (U p); zones (bath); }" > system/planeSampleDict
+denied "is not a list of numbers" planeSample -times ""
+denied "the nearest time is 0" planeSample -times 5
+truncate -s 3000 0/particles.hdf
+for program in ispfFsiFoam checkParticles "calibrateSprings -bodyOnly" planeSample; do
+    # shellcheck disable=SC2086
+    denied "Cannot read '.*/0/particles.hdf': not an HDF5 file, or truncated" $program
+done
+
 # ---- densities, words, kernels -------------------------------------------------------------------------
 newCase membrane words; place
 setEntry $control endTime 0.01

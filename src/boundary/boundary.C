@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "boundary.H"
+#include "fileNames.H"
 #include "openFace.H"
 #include "siteFile.H"
 #include "wallGuard.H"
@@ -77,6 +78,8 @@ boundary::boundary(const word& caseFolder, const dictionary& patches, const part
     c.visibility.find(c.walls, support);
     c.mirror.find(c.walls, support);
     c.addOpenFaces(caseFolder, patches, cloud);
+    for (const char* file : {"/constant/wallParticles.hdf", "/constant/openSites.hdf"})
+        if (isFile(caseFolder + file)) siteFile(caseFolder + file).checkPatches(patches);
     patches.checkAllRead();
 }
 

@@ -35,6 +35,19 @@ siteFile::siteFile(const word& path) : path_(path)
     }
 }
 
+void siteFile::checkPatches(const dictionary& patches) const
+{
+    const List<word> known = patches.keys();
+    for (const auto& [name, points] : points_)
+        if (!points.empty() && !patches.found(name))
+            throw fatalError(path_ + " has " + std::to_string(points.size()) +
+                                 " points of a patch '" + name +
+                                 "', which constant/boundary lacks." + didYouMean(name, known) +
+                                 "\n" + validWords("patch", known) +
+                                 "\nGive it an entry, or run generateParticles again",
+                             patches.where());
+}
+
 List<vector> siteFile::positions(const word& patch, const fileLocation& where) const
 {
     const auto found = points_.find(patch);

@@ -12,6 +12,11 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
                    const particleCloud& cloud, scalar support)
 {
     support_ = support, nDims_ = cloud.nDims;
+    for (const wall& w : walls_)
+        if (nDims_ == 2 && !w.motion.inPlane())
+            patches.subDict(w.name).fail(w.motion.moves() ? "motion" : "velocity",
+                                         "The case is two-dimensional, in x and y: patch " +
+                                             w.name + " must not move along z");
     if (empty()) return;
     makeBodies(caseFolder, patches, group, support + cloud.dx);
     checkSides(patches, cloud);

@@ -167,7 +167,7 @@ private:
         if (!readNumber(cells[k], v))
             throw fatalError(
                 "A finite number is wanted, found '" + cells[k] +
-                    "'.\\nnHeaderLine skips lines at the top; lines with # are skipped anyhow.",
+                    "'.\nnHeaderLine skips lines at the top; lines with # are skipped anyhow.",
                 here());
         return v;
     }

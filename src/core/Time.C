@@ -27,9 +27,10 @@ Time::Time(const word& caseFolder) : case_(caseFolder), start_(std::chrono::stea
     readControls(control_);
     startTime_ = value_ = previous_ = chosenStart();
     readState();
-    if (endTime_ < value_)
-        warning("endTime " + str(endTime_) + " lies before the start " + str(value_) +
-                ": there is nothing to run.");
+    if (!run())
+        warning(
+            "endTime " + str(endTime_) + " is not after the start " + str(value_) +
+            ": there is nothing to run. Raise endTime, or let startFrom choose an earlier start");
 }
 
 // Rounding errors of the clock, far below any step
@@ -41,8 +42,7 @@ scalar Time::slack() const
 bool Time::run() const
 {
     if (stopAfterThis_ || (stop_ && !stopWrites_)) return false;
-    // A step that is never adapted ends nearest to endTime, as in OpenFOAM
-    return adapted_ ? value_ + slack() < endTime_ : value_ + 0.5 * deltaT_ < endTime_;
+    return value_ + slack() < endTime_;
 }
 
 scalar Time::nextTarget() const
@@ -60,7 +60,6 @@ void Time::setDeltaT(scalar dt)
     if (!(dt > 0))
         throw fatalError("The time step is " + str(dt) + " s at time " + timeName() +
                          "; it must be positive.");
-    adapted_ = true;
     deltaT_ = std::min(dt, maxDeltaT_);
     const scalar remaining = nextTarget() - value_;
     // Equal steps up to the next instant: none is shorter than half of what was asked for

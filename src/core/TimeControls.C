@@ -40,15 +40,17 @@ void Time::readControls(const dictionary& d)
     stopAt_ =
         d.chooseOrDefault("stopAt", {"endTime", "writeNow", "noWriteNow", "nextWrite"}, "endTime");
     endTime_ = stopAt_ == "endTime" || d.found("endTime") ? d.get<scalar>("endTime") : never;
-    const scalar dt = d.getInRange("deltaT", std::numeric_limits<scalar>::min(), 1e30);
-    maxDeltaT_ = d.getInRangeOrDefault("maxDeltaT", std::numeric_limits<scalar>::min(), 1e30, 1e30);
+    const scalar dt = d.getInRange("deltaT", 1e-30, 1e30);
+    maxDeltaT_ = d.getInRangeOrDefault("maxDeltaT", 1e-30, 1e30, 1e30);
     if (dt != askedDeltaT_) deltaT_ = std::min(dt, maxDeltaT_);
     askedDeltaT_ = dt;
     adjust_ = d.getOrDefault<bool>("adjustTimeStep", false);
     modifiable_ = d.getOrDefault<bool>("runTimeModifiable", false);
     readWriteControls(d);
+    for (const char* key : {"startFrom", "startTime"}) d.found(key);
     // What an OpenFOAM user writes here but has no effect on us
-    for (const char* key : {"application", "writeFormat", "writeCompression", "writePrecision"})
+    for (const char* key : {"application", "graphFormat", "libs", "writeCompression", "writeFormat",
+                            "writePrecision"})
         d.found(key);
 }
 
@@ -58,20 +60,20 @@ void Time::readWriteControls(const dictionary& d)
         "timeStep", "runTime", "adjustableRunTime", "adjustable", "clockTime", "cpuTime", "none"};
     writeControl_ = d.chooseOrDefault("writeControl", controls, "timeStep");
     if (writeControl_ == "adjustable") writeControl_ = "adjustableRunTime";
-    if (writeControl_ != "none")
+    if (writeControl_ == "none") d.found("writeInterval");
+    else
     {
-        writeInterval_ = d.getInRange("writeInterval", std::numeric_limits<scalar>::min(), 1e30);
+        writeInterval_ = d.getInRange("writeInterval", 1e-30, 1e30);
         if (writeControl_ == "timeStep" && d.get<label>("writeInterval") < 1)
             d.fail("writeInterval", "With 'writeControl timeStep' this counts steps: 1 or more.");
     }
     writeTimes_ = d.getOrDefault<List<scalar>>("writeTimes", {});
     std::sort(writeTimes_.begin(), writeTimes_.end());
-    purge_ = label(d.getInRangeOrDefault("purgeWrite", 0, 1e9, 0));
+    purge_ = d.getInRangeOrDefault<label>("purgeWrite", 0, 1e9, 0);
     format_ = d.chooseOrDefault("timeFormat", {"general", "fixed", "scientific"}, "general");
-    precision_ = std::max(grownPrecision_, int(d.getInRangeOrDefault("timePrecision", 1, 17, 6)));
+    precision_ = std::max(grownPrecision_, d.getInRangeOrDefault<label>("timePrecision", 1, 17, 6));
 }
 
-// The dictionary read first stays as it is: others hold references into it
 void Time::rereadIfModified()
 {
     const std::int64_t stamp = modificationStamp(controlFile());
@@ -79,9 +81,13 @@ void Time::rereadIfModified()
     controlStamp_ = stamp;
     try
     {
-        const dictionary changed = dictionary::fromFile(controlFile());
-        readControls(changed);
-        control_ = changed;
+        Time changed = *this;  // all of it or nothing
+        changed.control_ = dictionary::fromFile(controlFile());
+        changed.readControls(changed.control_);
+        if (const dictionary* functions = changed.control_.findDict("functions"))
+            functions->markAllRead();  // they stay as they were at the start
+        changed.control_.checkAllRead();
+        *this = changed;
         info() << "Read the changed " << controlFile() << "\n";
     }
     catch (const fatalError& e)  // an editor may have saved half a thought

@@ -208,19 +208,18 @@ word dictionary::chooseOrDefault(const word& key, const List<word>& valid, const
     return found(key) ? choose(key, valid) : value;
 }
 
-scalar dictionary::getInRange(const word& key, scalar low, scalar high) const
+template <class T>
+T dictionary::getInRange(const word& key, scalar low, scalar high) const
 {
-    const scalar value = get<scalar>(key);
+    const T value = get<T>(key);
     if (value < low || value > high)
         fail(key, "'" + key + "' is " + str(value, 10) + ", but must lie between " + str(low, 10) +
                       " and " + str(high, 10) + ".");
     return value;
 }
 
-scalar dictionary::getInRangeOrDefault(const word& key, scalar low, scalar high, scalar value) const
-{
-    return found(key) ? getInRange(key, low, high) : value;
-}
+template scalar dictionary::getInRange<scalar>(const word&, scalar, scalar) const;
+template label dictionary::getInRange<label>(const word&, scalar, scalar) const;
 
 namespace
 {

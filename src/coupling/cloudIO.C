@@ -20,7 +20,8 @@ const char* phaseWord(const zoneInfo& z)
     return z.fixed ? "clamped" : "solid";
 }
 
-// attributes zones "a b c" and phases "fluid solid clamped"
+}  // namespace
+
 List<zoneInfo> zonesOf(const particleTable& table, const word& file)
 {
     const auto listed = [&](const char* key) {
@@ -45,6 +46,9 @@ List<zoneInfo> zonesOf(const particleTable& table, const word& file)
     }
     return zones;
 }
+
+namespace
+{
 
 void writeZones(const particleCloud& cloud, particleTable& table)
 {

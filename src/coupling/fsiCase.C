@@ -9,6 +9,21 @@
 namespace ispf
 {
 
+namespace
+{
+
+// An acceleration; what it has along z would be lost in two dimensions
+vector acceleration(const dictionary& dict, const word& key, int nDims)
+{
+    const vector a = dict.get<vector>(key);
+    if (nDims == 2 && a[2] != 0)
+        dict.fail(key, "The case is two-dimensional, in x and y: '" + key +
+                           "' must not have a component along z");
+    return a;
+}
+
+}  // namespace
+
 fsiCase::fsiCase(Time& t) : time(t)
 {
     schemes = dictionary::fromFile(time.systemFile("sphSchemes"));
@@ -17,8 +32,8 @@ fsiCase::fsiCase(Time& t) : time(t)
     readProperties();
     readKernel();
     walls = std::make_unique<boundary>(caseFolder(),
-                                       dictionary::fromFileIfPresent(time.constantFile("boundary")),
-                                       cloud, kernel->support());
+                                       dictionary::fromFile(time.constantFile("boundary")), cloud,
+                                       kernel->support());
     restoreBalance(time, *walls);
     readStructure();
     coupling = solution.chooseOrDefault("coupling", {"projection", "monolithic"},
@@ -44,7 +59,7 @@ void fsiCase::readProperties()
     const dictionary zoneRho = physical.subOrEmptyDict("zoneDensities");
     for (const word& zone : zoneRho.keys())
     {
-        cloud.zoneIndex(zone);
+        cloud.zoneIndex(zone, zoneRho.where(zone));
         if (const scalar r = zoneRho.get<scalar>(zone); std::abs(r - rho) > 1e-3 * rho)
             zoneRho.fail(zone,
                          "Zone " + zone + " has density " + str(r) + ", the fluid " + str(rho) +
@@ -59,9 +74,13 @@ void fsiCase::readBodyForce()
     const dictionary g = dictionary::fromFileIfPresent(time.constantFile("g"));
     const dictionary perZone = physical.subOrEmptyDict("bodyForce");
     if (g.empty() && perZone.empty()) return;
-    bodyForce.assign(cloud.zones.size(), g.empty() ? vector(0, 0, 0) : g.get<vector>("value"));
+    bodyForce.assign(cloud.zones.size(),
+                     g.empty() ? vector(0, 0, 0) : acceleration(g, "value", cloud.nDims));
+    g.found("dimensions");  // OpenFOAM's
+    g.checkAllRead();
     for (const word& zone : perZone.keys())
-        bodyForce[cloud.zoneIndex(zone)] += perZone.get<vector>(zone);
+        bodyForce[cloud.zoneIndex(zone, perZone.where(zone))] +=
+            acceleration(perZone, zone, cloud.nDims);
 }
 
 void fsiCase::readKernel()

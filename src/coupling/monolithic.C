@@ -40,9 +40,9 @@ public:
           preconditioner_(system_, dict_),
           theta_(dict_.getInRangeOrDefault("theta", 0, 1, c.structure ? 0.95 : 0)),
           alpha_(dict_.getInRangeOrDefault("volumeFeedback", 0, 1, 0.1)),
-          tolerance_(dict_.getInRangeOrDefault("tolerance", 1e-14, 1, 1e-4)),
-          absTolerance_(dict_.getInRangeOrDefault("absTolerance", 0, 1, 1e-6)),
-          maxIter_(dict_.getOrDefault<label>("maxIter", 150)),
+          tolerance_(dict_.getInRangeOrDefault("tolerance", 1e-14, 0.1, 1e-4)),
+          absTolerance_(dict_.getInRangeOrDefault("absTolerance", 0, 0.1, 1e-6)),
+          maxIter_(dict_.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
           shifting_(c.solution.subOrEmptyDict("shifting"))
     {
         if (!c.structure) return;

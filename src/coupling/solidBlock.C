@@ -8,7 +8,7 @@ namespace ispf
 
 solidBlock::solidBlock(const dictionary& dict)
     : solver_(dict.chooseOrDefault("solver", {"direct", "multigrid"}, "direct")),
-      refactorInterval_(dict.getOrDefault<label>("refactorInterval", 10))
+      refactorInterval_(dict.getInRangeOrDefault<label>("refactorInterval", 1, 1e6, 10))
 {
     options_.cycle = "V", options_.omega = 0.9;
     options_.read(dict.subOrEmptyDict("multigrid"));
@@ -31,7 +31,7 @@ void solidBlock::setup(const blockMatrix3& K, scalar dt, const List<scalar>& A,
     if (solver_ == "direct")
     {
         if (age_ == 0) direct_.factorise(As_);
-        age_ = (age_ + 1) % std::max<label>(1, refactorInterval_);
+        age_ = (age_ + 1) % refactorInterval_;
         return;
     }
     scalarBlock_ = As_.thirdOfTrace();

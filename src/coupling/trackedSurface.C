@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trackedSurface.H"
 
+#include "fileNames.H"
 #include "followWeights.H"
 #include "pointGrid.H"
 #include "surfaceRefinement.H"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace ispf
 {
@@ -20,16 +22,30 @@ constexpr scalar longestEdge = 1.5;
 
 }  // namespace
 
-trackedSurface::trackedSurface(const word& name, const fsiCase& c) : name_(name)
+triSurface readSurface(const word& name, const fsiCase& c, const fileLocation& where)
+{
+    const word folder = c.time.constantFile("triSurface");
+    if (isFile(folder + "/" + name + ".stl")) return readSTL(folder + "/" + name + ".stl");
+    List<word> valid;
+    std::error_code ignored;
+    for (const auto& item : std::filesystem::directory_iterator(folder, ignored))
+        if (item.path().extension() == ".stl") valid.push_back(item.path().stem().string());
+    throw fatalError("There is no surface " + folder + "/" + name + ".stl." +
+                         didYouMean(name, valid) + "\n" + validWords("surface", valid),
+                     where);
+}
+
+trackedSurface::trackedSurface(const word& name, const fsiCase& c, const fileLocation& where)
+    : name_(name)
 {
     if (c.cloud.nSolid() == 0)
-        throw fatalError("Surface " + name + " is to follow a solid, but the case has none");
-    rest_ = readSTL(c.time.constantFile("triSurface/" + name + ".stl"));
+        throw fatalError("Surface " + name + " is to follow a solid, but the case has none", where);
+    rest_ = readSurface(name, c, where);
     rest_.weld(1e-3 * c.cloud.dx);
     refine(rest_, longestEdge * c.cloud.dx);
     factor_ = c.walls->symmetryFactor();
     if (const boundBox box = rest_.bounds(); c.cloud.nDims == 2) height_ = box.max[2] - box.min[2];
-    attach(c);
+    attach(c, where);
     findRim(*c.walls);
     findApex(*c.walls);
     // normals point into the fluid, as generateParticles writes them, unless the volume at rest says else
@@ -40,7 +56,7 @@ trackedSurface::trackedSurface(const word& name, const fsiCase& c) : name_(name)
     update(c.cloud.x);
 }
 
-void trackedSurface::attach(const fsiCase& c)
+void trackedSurface::attach(const fsiCase& c, const fileLocation& where)
 {
     const List<vec4>& x0 = c.cloud.vectors.at("x0");
     const scalar reach = 3 * c.cloud.dx;
@@ -59,8 +75,9 @@ void trackedSurface::attach(const fsiCase& c)
                 std::sort(near[v].begin(), near[v].end());
                 if (near[v].size() < 4)
                     throw fatalError("Surface " + name_ + ": vertex (" + str(x[0]) + " " +
-                                     str(x[1]) + " " + str(x[2]) +
-                                     ") has no solid particles near it to follow");
+                                         str(x[1]) + " " + str(x[2]) +
+                                         ") has no solid particles near it to follow",
+                                     where);
                 List<vector> r;
                 for (const label j : near[v]) r.push_back((solids[j] - x) / reach);
                 weights[v] = followWeights(r);

@@ -12,8 +12,9 @@ volumeLedger::volumeLedger(fsiCase& c) : c_(c)
     const dictionary dict = c.solution.subOrEmptyDict("volumeLedger");
     if (!dict.empty())
     {
-        cavity_ = std::make_unique<trackedSurface>(dict.get<word>("cavity"), c);
-        zone_ = c.cloud.zoneIndex(dict.get<word>("zone"));
+        cavity_ =
+            std::make_unique<trackedSurface>(dict.get<word>("cavity"), c, dict.where("cavity"));
+        zone_ = c.cloud.zoneIndex(dict.get<word>("zone"), dict.where("zone"));
         if (c.cloud.zones[zone_].phase != phaseType::fluid)
             dict.fail("zone", "Zone " + c.cloud.zones[zone_].name + " is not fluid");
         relaxation_ = dict.getInRangeOrDefault("relaxation", 0, 1, 0);

@@ -4,10 +4,13 @@
 // trackedSurface.H.
 //
 //     cavity { type cavityVolume; surface wall_to_chamber; }
+//
+// changeOverRest reads NaN where the surface is flat at rest.
 #include "functionObject.H"
 
 #include "dataFile.H"
 #include "trackedSurface.H"
+#include <cmath>
 
 namespace ispf
 {
@@ -20,7 +23,7 @@ class cavityVolume : public functionObject
 public:
     cavityVolume(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, c),
-          surface_(dict.get<word>("surface"), c),
+          surface_(dict.get<word>("surface"), c, dict.where("surface")),
           rest_(surface_.restVolume()),
           file_(startFolder() + "/cavityVolume.dat",
                 {"Volume inside " + surface_.name() + ", of the whole body [m3]",
@@ -33,7 +36,10 @@ public:
     {
         surface_.update(case_.cloud.x);
         const scalar volume = surface_.enclosedVolume();
-        file_.begin(case_.time.value()) << volume << volume - rest_ << (volume - rest_) / rest_;
+        // a flat one, which holds less than a shred of a particle, has no volume to compare with
+        const bool flat = std::abs(rest_) < 1e-6 * case_.cloud.volume();
+        file_.begin(case_.time.value())
+            << volume << volume - rest_ << (flat ? std::nan("") : (volume - rest_) / rest_);
         file_.endRow();
     }
 

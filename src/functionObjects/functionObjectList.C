@@ -16,7 +16,7 @@ functionObjectList::functionObjectList(const fsiCase& c) : case_(c)
         if (dict.getOrDefault<bool>("enabled", true)) add(name, dict);
         else dict.markAllRead();
     }
-    all.checkAllRead();
+    c.time.controlDict().checkAllRead();
     info() << "function objects: " << (items_.empty() ? "none" : join(names())) << "\n";
 }
 

@@ -24,7 +24,7 @@ public:
         : functionObject(name, c), fields_(fieldsOf(c.cloud, dict)), sampler_(dict, c)
     {
         const vector a = dict.get<vector>("start"), b = dict.get<vector>("end");
-        const label n = label(dict.getInRangeOrDefault("nPoints", 2, 1e6, 101));
+        const label n = dict.getInRangeOrDefault<label>("nPoints", 2, 1e6, 101);
         if (!((b - a).norm() > 0)) dict.fail("end", "The line has no length: start and end agree.");
         for (label k = 0; k < n; ++k) points_.push_back(a + scalar(k) / (n - 1) * (b - a));
     }

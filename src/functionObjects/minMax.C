@@ -6,7 +6,7 @@
 
 #include "dataFile.H"
 #include "particleFields.H"
-#include <limits>
+#include <cmath>
 
 namespace ispf
 {
@@ -31,14 +31,14 @@ public:
         file_.begin(case_.time.value());
         for (const particleField& f : fields_)
         {
-            scalar least = std::numeric_limits<scalar>::infinity(), most = -least;
-            vector lowAt = vector::Constant(std::nan("")), highAt = lowAt;
+            scalar least = std::nan(""), most = least;  // without particles they stay so
+            vector lowAt = vector::Constant(least), highAt = lowAt;
             for (label i = 0; i < case_.cloud.n(); ++i)
             {
                 if (!chosen_(case_.cloud, i)) continue;
                 const scalar v = f.isVector() ? f.vectorAt(i).norm() : f.at(i);
-                if (v < least) least = v, lowAt = case_.cloud.x[i].xyz();
-                if (v > most) most = v, highAt = case_.cloud.x[i].xyz();
+                if (!(v >= least)) least = v, lowAt = case_.cloud.x[i].xyz();
+                if (!(v <= most)) most = v, highAt = case_.cloud.x[i].xyz();
             }
             file_ << least << lowAt << most << highAt;
         }

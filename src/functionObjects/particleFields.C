@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "particleFields.H"
 
+#include <algorithm>
+
 namespace ispf
 {
 
@@ -41,12 +43,16 @@ particleSelection::particleSelection(const particleCloud& cloud, const dictionar
     if (dict.found("zones"))
     {
         if (dict.found("phase")) dict.fail("zones", "Give either zones or phase, not both.");
-        for (const word& name : dict.get<List<word>>("zones")) zone_[cloud.zoneIndex(name)] = 1;
+        const List<word> names = dict.get<List<word>>("zones");
+        if (names.empty()) dict.fail("zones", "At least one zone is wanted.");
+        for (const word& name : names) zone_[cloud.zoneIndex(name, dict.where("zones"))] = 1;
         return;
     }
     for (size_t z = 0; z < cloud.zones.size(); ++z)
         zone_[z] =
             phase == "all" || (phase == "fluid") == (cloud.zones[z].phase == phaseType::fluid);
+    if (std::count(zone_.begin(), zone_.end(), 1) == 0)
+        dict.fail("phase", "No zone of the case is " + phase + ": give 'zones' or another phase.");
 }
 
 }  // namespace ispf

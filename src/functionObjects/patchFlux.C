@@ -13,6 +13,7 @@
 
 #include "dataFile.H"
 #include "fieldSampler.H"
+#include "trackedSurface.H"
 #include <cmath>
 
 namespace ispf
@@ -66,8 +67,7 @@ class sampledFlux : public functionObject
 public:
     sampledFlux(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, c),
-          surface_(
-              readSTL(c.time.constantFile("triSurface/" + dict.get<word>("surface") + ".stl"))),
+          surface_(readSurface(dict.get<word>("surface"), c, dict.where("surface"))),
           U_(c.cloud, "U", dict.where()),
           sampler_(dict, c),
           file_(startFolder() + "/patchFlux.dat",

@@ -50,11 +50,13 @@ samplePlane::samplePlane(const word& name, const dictionary& dict)
       xAxis_(dict.get<vector>("xAxis")),
       xRange_(dict.get<List<scalar>>("xRange")),
       yRange_(dict.get<List<scalar>>("yRange")),
-      spacing_(dict.get<scalar>("spacing")),
       zones_(dict.get<List<word>>("zones")),
       fields_(dict.get<List<word>>("fields")),
       images_(dict.getOrDefault<List<vector>>("images", {}))
 {
+    if (!(normal_.norm() > 0)) dict.fail("normal", "must not be zero");
+    for (const char* key : {"zones", "fields"})
+        if (dict.get<List<word>>(key).empty()) dict.fail(key, "must name one at least");
     xAxis_ -= xAxis_.dot(normal_) * normal_;
     if (!(xAxis_.norm() > 0)) dict.fail("xAxis", "lies along the normal; choose another direction");
     xAxis_.normalize();
@@ -65,13 +67,16 @@ samplePlane::samplePlane(const word& name, const dictionary& dict)
         if (range.size() != 2 || range[0] >= range[1]) dict.fail(key, "must be (low high)");
     }
     const scalar length = std::max(xRange_[1] - xRange_[0], yRange_[1] - yRange_[0]);
-    if (!(spacing_ > length / 10000))
-        dict.fail("spacing", "must be positive; the grid is too fine");
-    for (vector& n : images_) n.normalize();
+    spacing_ = dict.getInRange("spacing", length / 10000, length);
+    for (vector& n : images_)
+    {
+        if (!(n.norm() > 0)) dict.fail("images", "a normal must not be zero");
+        n.normalize();
+    }
     if (const dictionary* slice = dict.findDict("slice"))
     {
         sliceZones_ = slice->get<List<word>>("zones");
-        sliceThickness_ = slice->get<scalar>("thickness");
+        sliceThickness_ = slice->getInRange("thickness", 1e-30, 1e30);
     }
 }
 
@@ -142,7 +147,14 @@ word samplePlane::grid(const particleTable& particles) const
         if (near.vectors.count(field))
             text += "\t" + field + "_x\t" + field + "_y\t" + field + "_n";
         else if (near.scalars.count(field)) text += "\t" + field;
-        else dict_.fail("fields", "the particles have no field '" + field + "'");
+        else
+        {
+            List<word> valid;
+            for (const auto& column : near.vectors) valid.push_back(column.first);
+            for (const auto& column : near.scalars) valid.push_back(column.first);
+            dict_.fail("fields", "the particles have no field '" + field + "'.\n" +
+                                     validWords("field", valid));
+        }
     }
     text += "\n";
     for (label j = 0; j < count(yRange_, spacing_); ++j)

@@ -66,7 +66,8 @@ private:
             throw fatalError("surfaceLeaks wants either a surface or patches.", dict.where());
         if (dict.found("surface"))
         {
-            carried_ = std::make_unique<trackedSurface>(dict.get<word>("surface"), case_);
+            carried_ = std::make_unique<trackedSurface>(dict.get<word>("surface"), case_,
+                                                        dict.where("surface"));
             return carried_->name();
         }
         patches_ = dict.get<List<word>>("patches");
@@ -74,7 +75,7 @@ private:
         for (const word& patch : patches_)
         {
             refuseOther(dict, patch);
-            all.append(readSTL(case_.time.constantFile("triSurface/" + patch + ".stl")));
+            all.append(ispf::readSurface(patch, case_, dict.where("patches")));
         }
         all.weld(1e-3 * case_.cloud.dx);
         search_ = surfaceSearch(std::move(all));

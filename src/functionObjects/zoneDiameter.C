@@ -25,10 +25,10 @@ class zoneDiameter : public functionObject
 public:
     zoneDiameter(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, c),
-          surface_(dict.get<word>("surface"), c),
+          surface_(dict.get<word>("surface"), c, dict.where("surface")),
           frame_(dict.get<vector>("point"), dict.get<vector>("axis")),
           band_(dict.getInRangeOrDefault("band", 0, 1e30, 0)),
-          nAngles_(2 * (label(dict.getInRangeOrDefault("nAngles", 4, 1e6, 360)) / 2)),
+          nAngles_(2 * (dict.getInRangeOrDefault<label>("nAngles", 4, 1e6, 360) / 2)),
           images_(imagesAboutAxis(c.walls->images(), frame_)),
           rest_(measure(surface_.rest()).mean),
           file_(startFolder() + "/zoneDiameter.dat",

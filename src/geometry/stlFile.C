@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "triSurface.H"
 
+#include "fileNames.H"
+
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -15,15 +17,6 @@ namespace
 {
 
 constexpr size_t headerBytes = 80, recordBytes = 50;
-
-word readWhole(const word& path)
-{
-    std::ifstream in(path, std::ios::binary);
-    if (!in) throw fatalError("Cannot open the surface file " + path);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
 
 // The record count of a binary file fixes its length: the only sure mark
 bool isBinary(const word& bytes)
@@ -73,6 +66,7 @@ triSurface readAscii(const word& bytes, const word& path)
     vector corner[3];
     int nCorners = 0, lineNumber = 0;
     label patch = -1;
+    bool inSolid = false;
     while (std::getline(lines, line))
     {
         ++lineNumber;
@@ -82,6 +76,7 @@ triSurface readAscii(const word& bytes, const word& path)
         if (first == "solid")
         {
             in >> name;
+            inSolid = true;
             patch = s.addPatch(name.empty() ? std::filesystem::path(path).stem().string() : name);
         }
         else if (first == "vertex")
@@ -100,7 +95,11 @@ triSurface readAscii(const word& bytes, const word& path)
             addChecked(s, corner, patch, path);
             nCorners = 0;
         }
+        else if (first == "endsolid") inSolid = false;
     }
+    if (inSolid)
+        throw fatalError("The surface file " + path + " is cut off at line " +
+                         std::to_string(lineNumber) + ": there is no endsolid");
     return s;
 }
 
@@ -152,7 +151,7 @@ void writeAscii(std::ostream& out, const triSurface& s)
 
 triSurface readSTL(const word& path)
 {
-    const word bytes = readWhole(path);
+    const word bytes = readText(path);
     triSurface s = isBinary(bytes) ? readBinary(bytes, path) : readAscii(bytes, path);
     if (s.empty()) throw fatalError("The surface file " + path + " holds no triangle");
     s.weld(0);

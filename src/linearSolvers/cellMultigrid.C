@@ -104,7 +104,7 @@ void multigridOptions::read(const dictionary& dict)
 {
     cycle = dict.chooseOrDefault("cycle", {"V", "K"}, cycle);
     omega = dict.getInRangeOrDefault("omega", 0.1, 1.9, omega);
-    coarsestSize = label(dict.getInRangeOrDefault("coarsestSize", 1, 5000, coarsestSize));
+    coarsestSize = dict.getInRangeOrDefault<label>("coarsestSize", 1, 5000, coarsestSize);
 }
 
 cellMultigrid::cellMultigrid(const csrMatrix& A, const List<vector>& x,

@@ -70,7 +70,7 @@ public:
         if (solver == "PBiCGStab") krylov_ = std::make_unique<PBiCGStab>(controls_, fieldName);
         if (solver == "FGMRES")
             krylov_ = std::make_unique<FGMRES>(
-                controls_, fieldName, label(dict.getInRangeOrDefault("restart", 1, 1000, 60)));
+                controls_, fieldName, dict.getInRangeOrDefault<label>("restart", 1, 1000, 60));
         else passOver(dict, {"restart"}, solver);
 
         if (name_ != "multigrid")

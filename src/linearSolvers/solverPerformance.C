@@ -11,10 +11,10 @@ namespace ispf
 solverControls solverControls::fromDict(const dictionary& dict)
 {
     solverControls c;
-    c.tolerance = dict.getInRangeOrDefault("tolerance", 0, 1, c.tolerance);
-    c.relTol = dict.getInRangeOrDefault("relTol", 0, 1, c.relTol);
+    c.tolerance = dict.getInRangeOrDefault("tolerance", 0, 0.1, c.tolerance);
+    c.relTol = dict.getInRangeOrDefault("relTol", 0, 0.5, c.relTol);
     c.absTol = dict.getInRangeOrDefault("absTol", 0, 1e300, c.absTol);
-    c.maxIter = label(dict.getInRangeOrDefault("maxIter", 0, 1e9, c.maxIter));
+    c.maxIter = dict.getInRangeOrDefault<label>("maxIter", 1, 1e6, c.maxIter);
     return c;
 }
 

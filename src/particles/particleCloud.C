@@ -8,7 +8,7 @@
 namespace ispf
 {
 
-label particleCloud::zoneIndex(const word& name) const
+label particleCloud::zoneIndex(const word& name, const fileLocation& where) const
 {
     List<word> names;
     for (size_t z = 0; z < zones.size(); ++z)
@@ -16,7 +16,9 @@ label particleCloud::zoneIndex(const word& name) const
         if (zones[z].name == name) return label(z);
         names.push_back(zones[z].name);
     }
-    throw fatalError("Unknown zone '" + name + "'. " + validWords("zone", names));
+    throw fatalError(
+        "Unknown zone '" + name + "'." + didYouMean(name, names) + "\n" + validWords("zone", names),
+        where);
 }
 
 // All owned fields, so that sorting, deleting and adding treat each the same way

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
+#include <map>
+#include <set>
 
 namespace ispf
 {
@@ -45,6 +47,38 @@ void setLayers(const zoneGeometry& geometry, const placedParticles& placed,
     for (label i = 0; i < n; ++i)
         if (scalar& least = quality[zone[i]].layers; layers[i] > 0)
             least = least == 0 ? layers[i] : std::min(least, layers[i]);
+}
+
+// What a zone takes of others before it, by its own particles
+void reportOverlaps(const zoneGeometry& geometry, const placedParticles& placed)
+{
+    struct overlap
+    {
+        label n = 0;
+        vector middle = vector::Zero();
+    };
+    const label n = label(placed.x.size());
+    List<List<label>> claims(n);
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i) claims[i] = geometry.claims(placed.x[i]);
+    });
+    std::map<std::pair<label, label>, overlap> taken;
+    for (label i = 0; i < n; ++i)
+        for (const label zone : std::set<label>(claims[i].begin(), claims[i].end()))
+            if (zone >= 0 && zone != placed.zone[i] && placed.strip[i] < 0)
+            {
+                overlap& o = taken[{zone, placed.zone[i]}];
+                ++o.n, o.middle += placed.x[i];
+            }
+    for (const auto& [zones, o] : taken)
+    {
+        const vector c = o.middle / o.n;
+        info() << "zones overlap: " << geometry.zones()[zones.second].name << " takes "
+               << str(o.n * std::pow(geometry.dx(), geometry.nDims()), 4)
+               << (geometry.nDims() == 3 ? " m3" : " m2") << " of "
+               << geometry.zones()[zones.first].name << ", which comes before it, around ("
+               << str(c[0], 4) << " " << str(c[1], 4) << " " << str(c[2], 4) << ")\n";
+    }
 }
 
 }  // namespace
@@ -121,7 +155,11 @@ void reportPacking(const zoneGeometry& geometry, const placedParticles& placed, 
         out << std::setw(13) << str(q.minDistance, 3);
         if (q.layers > 0) out << std::setw(9) << str(q.layers, 2);
         out << "\n";
+        if (std::abs(q.volumeError) > 0.1)
+            warning("The particles of zone " + name + " miss its volume by " +
+                    percent(q.volumeError) + " %: refine dx, or choose placement bodyFitted");
     }
+    reportOverlaps(geometry, placed);
     label strip = 0;
     for (const label p : placed.strip) strip += p >= 0;
     out << "beyond open faces " << strip << ", rigid wall " << placed.rigid.size() << ", together "

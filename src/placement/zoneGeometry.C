@@ -16,6 +16,7 @@ namespace
 // How far from a triangle its two sides are looked at, in dx: beyond the sag of coarse facets, well
 // within the thinnest zone that holds a particle
 constexpr scalar probe = 0.05;
+constexpr scalar mostParticles = 5e8;  // as labels, of images too, can number
 
 bool isPrismEnd(const triSurface& s, label t)
 {
@@ -51,13 +52,20 @@ zoneGeometry::zoneGeometry(List<zoneInfo> zones, List<patchInfo> patches, List<b
         bounds_.add(boundary_[z].bounds());
     }
     if (nDims_ == 2) bounds_.min[2] = bounds_.max[2] = 0;
+    checkPatchNames();
     gatherPatches();
     setVolumes();
+    checkCount();
 }
 
-void zoneGeometry::checkClosed(body& b) const
+word zoneGeometry::nameOf(const body& b) const
 {
-    const word& name = zones_[b.zone].name;
+    return b.zone >= 0 ? zones_[b.zone].name : join(b.surface.patchNames) + " (rigid)";
+}
+
+void zoneGeometry::checkClosed(const body& b) const
+{
+    const word name = nameOf(b);
     if (b.surface.empty()) throw fatalError("A body of zone " + name + " has no triangles");
     const closednessReport report = ispf::checkClosed(b.surface);
     if (!report.closed())
@@ -69,6 +77,15 @@ void zoneGeometry::checkClosed(body& b) const
         throw fatalError("Zone " + name + " is about " + str(thickness) +
                          " m thick and the particle spacing dx is " + str(dx_) +
                          " m: it could not hold a particle. Is the unit of its file right?");
+}
+
+List<label> zoneGeometry::claims(const vector& x) const
+{
+    List<label> zones;
+    for (size_t b = 0; b < bodies_.size(); ++b)
+        if (bodyBounds_[b].distSqr(x) == 0 && winding_[b].inside(x))
+            zones.push_back(bodies_[b].zone);
+    return zones;
 }
 
 bool zoneGeometry::inBodies(const vector& x, label& zone) const
@@ -127,7 +144,7 @@ void zoneGeometry::classify()
         triSurface s = b.surface;
         if (nDims_ == 2) s = s.subset([&](label t) { return !isPrismEnd(s, t); });
         for (const halfSpace& plane : planes_) s = clipped(s, plane, tiny);
-        zoneSkin[b.zone].append(s);
+        if (b.zone >= 0) zoneSkin[b.zone].append(s);
         skin.push_back(std::move(s));
     }
     for (size_t z = 0; z < zones_.size(); ++z) own[z] = surfaceSearch(zoneSkin[z]);
@@ -146,7 +163,7 @@ void zoneGeometry::classify()
             label inner = -1, outer = -1;
             inBodies(c - step, inner), inBodies(c + step, outer);
             if (inner == outer || inner != bodies_[k].zone) continue;
-            addBoundary(inner, s, t, outer, false);
+            if (inner >= 0) addBoundary(inner, s, t, outer, false);
             // A shape set into another bounds it too, unless the other has a face of its own there
             if (outer >= 0 && !own[outer].within(c, 2 * probe * dx_))
                 addBoundary(outer, s, t, inner, true);
@@ -159,6 +176,28 @@ void zoneGeometry::classify()
                 if (s.patchNames[s.patch[t]] == towards(z.name)) return true;
             return false;
         }));
+}
+
+// A face whose patch does not exist would be a hole
+void zoneGeometry::checkPatchNames() const
+{
+    List<word> valid;
+    for (const patchInfo& p : patches_) valid.push_back(p.name);
+    for (size_t z = 0; z < zones_.size(); ++z)
+        for (label t = 0; t < boundary_[z].size(); ++t)
+        {
+            const triSurface& s = boundary_[z];
+            const word& name = s.patchNames[s.patch[t]];
+            const bool known = std::find(valid.begin(), valid.end(), name) != valid.end();
+            if (known || name.empty() || name.rfind("to:", 0) == 0) continue;
+            const vector c = s.centre(t);
+            throw fatalError(
+                "A face of zone " + zones_[z].name + " at (" + str(c[0]) + " " + str(c[1]) + " " +
+                str(c[2]) + ") belongs to patch " + name + ", which constant/boundary lacks." +
+                didYouMean(name, valid) + "\n" + validWords("patch", valid) +
+                "\nGive it an entry, or name the face in 'patches' or by 'defaultPatch' "
+                "of system/particleDict");
+        }
 }
 
 void zoneGeometry::gatherPatches()
@@ -179,6 +218,8 @@ void zoneGeometry::gatherPatches()
         if (all.empty() && patch.type != patchInfo::kind::other)
             throw fatalError("Patch " + patch.name +
                              " has no face: no outer face of a fluid zone was given that name");
+        if (all.empty())
+            warning("Patch " + patch.name + ": no face of a fluid zone lies in its planes");
         patchSurface_.push_back(std::move(all));
     }
     for (const triSurface& s : boundary_)
@@ -221,6 +262,16 @@ void zoneGeometry::setVolumes()
         whole = std::abs(bounded - cut) < 1e-3 * cut;
         volume_.push_back(whole ? cut * true_ / meshed : bounded);
     }
+}
+
+void zoneGeometry::checkCount() const
+{
+    scalar n = 0;
+    for (const scalar v : volume_) n += v / std::pow(dx_, nDims_);
+    if (n > mostParticles)
+        throw fatalError("The zones have room for " + str(n, 3) +
+                         " particles of spacing dx = " + str(dx_) + " m, but a case can hold " +
+                         str(mostParticles) + ". Are dx and the units of the geometry right?");
 }
 
 }  // namespace ispf

@@ -127,6 +127,18 @@ TEST_CASE("a particle beyond a wall fails, a hole and a clump warn")
     CHECK(log.contains("*Largest gap, radius of an empty ball: 1.5"));
 }
 
+TEST_CASE("a particle with too few neighbours for a gradient fails")
+{
+    const capturedLog log;
+    tank t("strayTank");
+    t.disk.boundary = "";
+    t.disk.particles().x[599] = vector(0.05, 0.05, 0);
+    findings found;
+    checkNeighbours(t.start(), found);
+    CHECK(found.nFailed() == 1);
+    CHECK(log.contains("***Particle 599 (zone fluid) has too few neighbours"));
+}
+
 TEST_CASE("layers: as many as the support needs, and one; one fewer warns, fewer fail")
 {
     const auto outcome = [](int rows, word& text) {

@@ -18,7 +18,7 @@ struct testCase : temporaryFolder
     Time time() const { return Time(path); }
 };
 
-// Runs to the end with the steps that `dt` asks for; the times at which to write
+// Runs to the end with the steps that `dt` asks for, or controlDict; the times at which to write
 struct record
 {
     List<scalar> written, steps;
@@ -28,9 +28,10 @@ struct record
 record runThrough(Time& t, const std::function<scalar(scalar)>& dt = nullptr)
 {
     record r;
+    const scalar asked = t.deltaT();
     while (t.run() && r.steps.size() < 10000)
     {
-        if (dt) t.setDeltaT(dt(t.value()));
+        t.setDeltaT(dt ? dt(t.value()) : asked);
         const scalar before = t.value();
         ++t;
         r.steps.push_back(t.value() - before);
@@ -42,16 +43,26 @@ record runThrough(Time& t, const std::function<scalar(scalar)>& dt = nullptr)
 
 }  // namespace
 
-TEST_CASE("a fixed step is left alone and ends nearest to endTime")
+TEST_CASE("steps of one length end at endTime")
 {
     const testCase c("deltaT 0.03; endTime 1; writeControl timeStep; writeInterval 10;");
     Time t = c.time();
     const record r = runThrough(t);
-    CHECK(t.timeIndex() == 33);
-    CHECK(r.last == relative(0.99));
+    CHECK(t.timeIndex() == 34);
+    CHECK(r.last == 1);
     CHECK(r.written.size() == 3);
-    CHECK(r.written[0] == relative(0.3));
-    CHECK(t.deltaT() == 0.03);
+    CHECK(r.written[0] == relative(10.0 / 34));
+    for (const scalar s : r.steps) CHECK(s == relative(1.0 / 34));
+}
+
+TEST_CASE("a deltaT beyond endTime makes one step, to endTime; none is left behind it")
+{
+    const testCase c("deltaT 1; endTime 1e-3; writeControl none;");
+    Time t = c.time();
+    CHECK(runThrough(t).steps == List<scalar>{1e-3});
+    const testCase done(
+        "deltaT 1; startFrom startTime; startTime 2; endTime 2; writeControl none;");
+    CHECK(!done.time().run());
 }
 
 TEST_CASE("ten steps of 0.1 end at 1, and three of them at a write instant of 0.3")
@@ -220,7 +231,9 @@ TEST_CASE("stopAt, and changes to controlDict while running")
     CHECK(changed("noWriteNow").last == 2);
     CHECK(changed("nextWrite").written == List<scalar>{3});
     CHECK(changed("endTime; endTime 5").last == 5);
-    CHECK(changed("endTime; deltaT").last == 9);  // a broken file is not used
+    CHECK(changed("endTime; deltaT").last == 9);               // a broken file is not used
+    CHECK(changed("endTime; endTime 5; enTime 7").last == 9);  // nor one with a word nobody reads
+    CHECK(changed("endTime; endTime 5; writeInterval 0").last == 9);
 }
 
 TEST_CASE("requestStop ends the step, with or without writing")

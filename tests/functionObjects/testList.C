@@ -16,10 +16,11 @@ List<scalar> timesOf(const testCase& t, const word& file)
     return times;
 }
 
-word wrong(const word& functions)
+word wrong(const word& functions, const word& control = "")
 {
     testCase t;
     t.addBlock("chamber", {0, 0, 0}, {3, 3, 3});
+    t.control += control;
     t.functions = functions;
     auto r = t.start();
     functionObjectList f(*r.c);
@@ -60,7 +61,13 @@ TEST_CASE("mistakes in functions")
     CHECK_ERROR(wrong("a { type probe; }"), "Valid types are: cavityVolume lineProfile minMax", 3);
     CHECK_ERROR(wrong("a { type minMax; feilds (p); }"), "Did you mean 'fields'?", 3);
     CHECK_ERROR(wrong("a { type minMax; fields (T); }"), "Valid fields are: U p", 3);
-    CHECK_ERROR(wrong("a { type minMax; zones (wall); }"), "chamber", 0);
+    CHECK_ERROR(wrong("a { type minMax; zones (wall); }"), "Valid zones are: chamber", 3);
+    CHECK_ERROR(wrong("a { type minMax; zones (); }"), "At least one zone", 3);
+    CHECK_ERROR(wrong("a { type minMax; phase solid; }"), "No zone of the case is solid", 3);
+    CHECK_ERROR(wrong("a { type patchFlux; surface no; }"), "There is no surface", 3);
+    CHECK_ERROR(wrong("a { type cavityVolume; surface no; }"), "the case has none", 3);
+    CHECK_ERROR(wrong("a { type lineProfile; start (0 0 0); end (1 0 0); nPoints 2.5; }"),
+                "a whole number", 3);
     CHECK_ERROR(wrong("a { type minMax; phase gas; }"), "Valid phases are: all fluid solid", 3);
     CHECK_ERROR(wrong("a { type minMax; phase all; zones (chamber); }"), "not both", 3);
     CHECK_ERROR(wrong("a { type probes; }"), "'probeLocations' is missing", 3);
@@ -69,7 +76,8 @@ TEST_CASE("mistakes in functions")
                 "takes no writeInterval", 3);
     CHECK_ERROR(wrong("a { type patchFlux; }"), "either a patch or a surface", 3);
     CHECK_ERROR(wrong("a { type lineProfile; start (0 0 0); end (0 0 0); }"), "no length", 3);
-    CHECK(wrong("") == "");
+    CHECK_ERROR(wrong("", "maxCo 1;"), "Nothing reads the entry 'maxCo'", 1);
+    CHECK(wrong("", "application ispfFsiFoam; writeInterval 1; libs ();") == "");
 }
 
 TEST_CASE("data files: header, columns, NaN")

@@ -103,7 +103,10 @@ TEST_CASE("planes that cannot be are refused")
                 "(low high)", 1);
     CHECK_ERROR(plane("point (0 0 0); normal (0 1 0); xAxis (1 0 0); xRange (0 1); yRange (0 1);"
                       "spacing 0; fields (U); zones (fluid);"),
-                "positive", 1);
+                "must lie between 0.0001 and 1", 1);
+    CHECK_ERROR(plane("point (0 0 0); normal (0 0 0); xAxis (1 0 0); xRange (0 1); yRange (0 1);"
+                      "spacing 0.1; fields (U); zones (fluid);"),
+                "must not be zero", 1);
     word text = across;
     text.replace(text.find("(fluid)"), 7, "(fluit)");
     CHECK_ERROR(plane(text).grid(quarter()), "Valid zones are: fluid wall", 1);

@@ -172,6 +172,20 @@ TEST_CASE("minMax: values and positions, magnitudes of vectors, chosen zones onl
           word::npos);
 }
 
+TEST_CASE("minMax of a zone that all particles have left is no number")
+{
+    testCase t;
+    t.addBlock("a", {0, 0, 0}, {4, 4, 4});
+    t.zones.push_back("lake"), t.phases.push_back("fluid");
+    t.functions = "m { type minMax; zones (lake); }";
+    auto r = t.start();
+    functionObjectList f(*r.c);
+    f.start();
+    const auto row = t.rows("m/0/minMax.dat").at(0);
+    REQUIRE(row.size() == 17);
+    for (size_t k = 1; k < row.size(); ++k) CHECK(std::isnan(row[k]));
+}
+
 TEST_CASE("patchFlux through a surface: exact for linear velocity, times the symmetry factor")
 {
     testCase t;

@@ -104,6 +104,10 @@ TEST_CASE("STL files give back solids, names and corners")
     for (label t = 0; t < s.size(); ++t)
         for (int k = 0; k < 3; ++k) CHECK((ascii.corner(t, k) - s.corner(t, k)).norm() == 0);
 
+    std::filesystem::resize_file(scratch("two.stl"),
+                                 std::filesystem::file_size(scratch("two.stl")) - 16);
+    CHECK_THROWS_AS(readSTL(scratch("two.stl")), fatalError);  // without the last endsolid
+
     writeSTL(s, scratch("two.stlb"), true);
     const triSurface binary = readSTL(scratch("two.stlb"));
     CHECK(binary.patchNames == List<word>{"two"});

@@ -57,7 +57,7 @@ List<timeFolder> select(const List<timeFolder>& times, const word& asked, scalar
                              "; the nearest time is " + nearest->name);
         chosen.push_back(*nearest);
     }
-    if (!stream.eof())
+    if (!stream.eof() || chosen.empty())
         throw fatalError("Option '-times': '" + asked +
                          "' is not a list of numbers such as '0 1.5'");
     return chosen;
@@ -75,6 +75,9 @@ int run(int argc, char** argv)
     List<samplePlane> planes;
     for (const word& name : dict.dictKeys()) planes.emplace_back(name, dict.subDict(name));
     dict.checkAllRead();
+    if (planes.empty())
+        throw fatalError("There is no plane: give one or more <name> { point ...; normal ...; }",
+                         dict.where());
 
     List<timeFolder> times = timeFolders(root);
     if (args.found("latestTime")) times = {times.back()};

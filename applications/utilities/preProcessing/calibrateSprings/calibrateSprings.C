@@ -7,6 +7,7 @@
 // the modulus that the links name.  Where E or G asks for a modulus every body is judged, 5 % allowed; with
 // k_e nothing is asked: the printed modulus is the one to quote.
 #include "argList.H"
+#include "cloudIO.H"
 #include "fileNames.H"
 #include "particleTable.H"
 #include "sampleBodies.H"
@@ -97,13 +98,12 @@ structureReference caseBody(const word& file)
     const particleTable table = readParticles(file);
     structureReference ref =
         emptyReference(int(table.scalarAttribute("nDims")), table.scalarAttribute("dx"));
-    List<word> phases;
-    std::istringstream stream(table.attributes.at("phases"));
-    for (word phase; stream >> phase;) phases.push_back(phase);
-    const List<globalId>& zone = table.integers.at("zone");
+    const List<zoneInfo> zones = zonesOf(table, file);
+    const auto zone = table.integers.find("zone");
+    if (zone == table.integers.end()) throw fatalError(file + " has no field 'zone'");
     const auto rest = table.vectors.find("x0");
     for (size_t i = 0; i < table.size(); ++i)
-        if (phases.at(size_t(zone[i])) != "fluid")
+        if (zones.at(size_t(zone->second[i])).phase == phaseType::solid)
             ref.x0.push_back(rest == table.vectors.end() ? table.x[i] : rest->second[i]);
     ref.fixed.assign(ref.x0.size(), 0);
     return ref;
@@ -139,9 +139,10 @@ List<int> layersAsked(const argList& args)
     List<int> layers;
     std::istringstream stream(args.optionOr("layers", "3 4 5 8"));
     for (int n; stream >> n;) layers.push_back(n);
-    if (!stream.eof() || layers.empty() || *std::min_element(layers.begin(), layers.end()) < 2)
+    const auto possible = [](int n) { return n >= 2 && n <= 100; };
+    if (!stream.eof() || layers.empty() || !std::all_of(layers.begin(), layers.end(), possible))
         throw fatalError(
-            "Option -layers needs numbers of at least 2 in quotes, e.g. -layers \"3 5\"");
+            "Option -layers needs numbers from 2 to 100 in quotes, e.g. -layers \"3 5\"");
     return layers;
 }
 

@@ -5,16 +5,29 @@
 #include "checks.H"
 #include "cloudIO.H"
 
+#include <cmath>
+
 using namespace ispf;
 
 namespace
 {
 
+// Words that nobody reads; function objects are the solver's matter
+void checkControls(const dictionary& control)
+{
+    if (const dictionary* functions = control.findDict("functions")) functions->markAllRead();
+    control.checkAllRead();
+}
+
 int run(const argList& args)
 {
     args.printHeader();
     info() << "Create time\n";
+    const double steps = args.numberOr("steps", 3);
+    if (steps < 0 || steps > 1e6 || steps != std::floor(steps))
+        throw fatalError("-steps wants a whole number from 0 to 1e6.");
     Time time(args.caseFolder());
+    checkControls(time.controlDict());
     if (args.found("time")) time.rewind(args.number("time"), 0);
     findings found;
     {
@@ -31,8 +44,7 @@ int run(const argList& args)
     checkNeighbours(c, found);
     checkKernelSums(c, found);
     checkSolids(c, found);
-    const label nSteps = label(args.numberOr("steps", 3));
-    if (nSteps > 0) timeSteps(c, nSteps, found);
+    if (steps > 0) timeSteps(c, label(steps), found);
     return found.close();
 }
 

@@ -53,7 +53,7 @@ void checkNeighbours(const fsiCase& c, findings& found)
             found.note("Neighbours of " + word(name) +
                        " particles, least/mean/most: " + range->text());
     if (lonely >= 0)
-        found.warn("Particle " + std::to_string(cloud.id[lonely]) + " (zone " +
+        found.fail("Particle " + std::to_string(cloud.id[lonely]) + " (zone " +
                    cloud.zones[cloud.zone[lonely]].name +
                    ") has too few neighbours for a gradient");
 }

@@ -26,10 +26,19 @@ struct stepCost
     scalar seconds, cpuSeconds;  // by the clock; of all threads
 };
 
-List<stepCost> makeSteps(fsiCase& c, label most)
+// The solver takes no longer step than this unless it may adjust it
+void checkLimit(const Time& time, const couplingScheme::stepLimit& limit, findings& found)
+{
+    if (!time.adjustTimeStep() && time.deltaT() > limit.dt * (1 + 1e-9))
+        found.fail("deltaT " + str(time.deltaT()) + " s is beyond the " + limit.rule +
+                   " limit: the largest admissible value now is " + str(limit.dt) + " s");
+}
+
+List<stepCost> makeSteps(fsiCase& c, label most, findings& found)
 {
     using clock = std::chrono::steady_clock;
     const auto coupling = couplingScheme::New(c);
+    checkLimit(c.time, coupling->limit(), found);
     List<stepCost> costs;
     scalar spent = 0;
     while (label(costs.size()) < most && spent < longEnough && c.time.run())
@@ -55,7 +64,7 @@ void timeSteps(fsiCase& c, label most, findings& found)
     List<stepCost> costs;
     try
     {
-        costs = makeSteps(c, most);
+        costs = makeSteps(c, most, found);
     }
     catch (const fatalError& error)
     {

@@ -35,6 +35,9 @@ expression::expression(const word& text, scalar dx, const fileLocation& where)
 {
     content& c = *content_;
     c.text = text, c.where = where;
+    for (size_t i = text.find('='); i != word::npos; i = text.find('=', i + 1))
+        if (text.substr(i, 2) != "==" && (i == 0 || word("=<>!").find(text[i - 1]) == word::npos))
+            throw fatalError("The formula \"" + text + "\" must not assign anything", where);
     try
     {
         c.parser.ClearConst();  // muParser's own are called _pi and _e

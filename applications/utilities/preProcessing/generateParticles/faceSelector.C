@@ -25,9 +25,11 @@ faceSelector::faceSelector(const dictionary& dict)
     {
         hasColour_ = true;
         colour_ = dict.get<List<label>>("colour");
-        if (colour_.size() != 3) dict.fail("colour", "A colour is three numbers (r g b), 0 to 255");
+        const auto valid = [](label c) { return c >= 0 && c <= 255; };
+        if (colour_.size() != 3 || !std::all_of(colour_.begin(), colour_.end(), valid))
+            dict.fail("colour", "A colour is three numbers (r g b), 0 to 255");
     }
-    if (dict.found("faces")) faces_ = dict.get<List<label>>("faces");
+    if (dict.found("faces")) faces_ = dict.get<List<label>>("faces"), where_ = dict.where("faces");
     if (dict.found("group")) group_ = dict.get<word>("group");
     if (dict.found("box"))
     {
@@ -58,6 +60,20 @@ bool faceSelector::matches(const cadFace& face) const
 bool faceSelector::matches(const cadVolume& volume) const
 {
     return !group_.empty() && has(volume.groups, group_);
+}
+
+void faceSelector::checkFaces(const cadModel& cad) const
+{
+    const auto has = [&](label tag) {
+        return std::any_of(cad.faces.begin(), cad.faces.end(),
+                           [tag](const cadFace& f) { return f.tag == tag; });
+    };
+    for (const label tag : faces_)
+        if (!has(tag))
+            throw fatalError(cad.path + " has no face " + std::to_string(tag) +
+                                 "; they are numbered 1 to " +
+                                 std::to_string(cad.faces.empty() ? 0 : cad.faces.back().tag),
+                             where_);
 }
 
 word faceSelector::describe() const

@@ -2,6 +2,7 @@
 // gmsh runs in a child process and hands its result over as bytes
 #include "cadModel.H"
 
+#include "fileNames.H"
 #include "guardedProcess.H"
 #include <algorithm>
 #include <cmath>
@@ -83,6 +84,8 @@ int toSRGB(int linear)
         std::lround(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055)));
 }
 
+constexpr scalar mostAcross = 5000;  // mesh sizes over a part: more takes hours
+
 void check(bool ok, const word& what)
 {
     if (ok) return;
@@ -107,7 +110,14 @@ void openFile(const word& path, scalar meshSize)
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> elements, nodes;
     gmsh::model::mesh::getElements(types, elements, nodes, 2);
-    if (types.empty()) gmsh::model::mesh::generate(2);
+    if (!types.empty()) return;
+    double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+    gmsh::model::getBoundingBox(-1, -1, low[0], low[1], low[2], high[0], high[1], high[2]);
+    const scalar size = (vector(high) - vector(low)).norm();
+    check(size < mostAcross * meshSize,
+          "it measures " + str(size / meshSize) +
+              " times the mesh size (surfaceSize, by default dx): are dx and the unit right?");
+    gmsh::model::mesh::generate(2);
 }
 
 std::map<std::pair<int, int>, List<word>> physicalGroups()
@@ -167,8 +177,8 @@ word meshInChild(const word& path, scalar meshSize)
     {
         int r = 0, g = 0, b = 0, a = 0;
         gmsh::model::getColor(dim, tag, r, g, b, a);
-        // gmsh answers (0 0 255) for entities without a colour of their own
-        out.put(tag), out.put(!(r == 0 && g == 0 && b == 255));
+        // gmsh answers a transparent blue for entities without a colour of their own
+        out.put(tag), out.put(a > 0);
         for (const int c : {r, g, b}) out.put(toSRGB(c));
         out.putWords(groupsOf(2, tag));
         out.putList(trianglesOf(tag, position));
@@ -252,6 +262,26 @@ scalar unitInMetres(const word& unit)
 
 }  // namespace
 
+namespace
+{
+
+// OpenCASCADE takes what there is of a file; the formats that say where they end are looked at
+void checkWhole(const word& path, const word& type)
+{
+    const bool iges = type == ".igs" || type == ".iges", step = type == ".stp" || type == ".step";
+    if (!iges && !step) return;
+    const word text = readText(path);
+    const size_t end = text.find_last_not_of(" \r\n\t");
+    const word last = end == word::npos ? "" : text.substr(text.find_last_of('\n', end) + 1);
+    const bool whole =
+        iges ? last.size() > 72 && last[72] == 'T' : last.find("END-ISO-10303-21;") != word::npos;
+    if (!whole)
+        throw fatalError("The file " + path + " is cut off: its last line should " +
+                         (iges ? "have a T in column 73" : "be END-ISO-10303-21;"));
+}
+
+}  // namespace
+
 const cadFace& cadModel::face(label tag) const
 {
     const auto at =
@@ -287,6 +317,7 @@ cadModel readCad(const word& path, const cadSettings& settings)
     if (isOne(declaring) && !settings.unit.empty() && settings.unit != "mm")
         throw fatalError("The file " + path + " declares its own unit: remove 'unit " +
                          settings.unit + ";'");
+    checkWhole(path, type);
     const scalar unit = isOne(declaring) ? 1e-3 : unitInMetres(settings.unit);
     cadModel model;
     if (type == ".stl") model = fromSTL(path, unit);
@@ -294,7 +325,7 @@ cadModel readCad(const word& path, const cadSettings& settings)
         model = unpack(runGuarded("Meshing " + path + " with gmsh", settings.timeLimit,
                                   [&] { return meshInChild(path, settings.meshSize / unit); }),
                        unit);
-    model.path = path;
+    model.path = path, model.unit = isOne(declaring) ? "mm" : settings.unit;
     return model;
 }
 

@@ -2,6 +2,7 @@
 #include "particleDict.H"
 
 #include "faceSelector.H"
+#include "fileNames.H"
 #include "shapes.H"
 #include "surfaceTopology.H"
 #include <algorithm>
@@ -21,7 +22,16 @@ zoneInfo readZone(const word& name, const dictionary& dict)
     return {name, phaseType::solid, phase == "clamped"};
 }
 
-word coloursOf(const cadModel& model)
+// Names become words of lists and names of files
+void checkName(const dictionary& dict, const word& name)
+{
+    const auto fine = [](unsigned char c) { return std::isalnum(c) || word("_-.").find(c) < 3; };
+    if (!std::all_of(name.begin(), name.end(), fine))
+        dict.fail(name, "'" + name + "' cannot be a name here: use letters, digits, _ - and .");
+}
+
+// "6 faces with the colours (255 0 0) (0 0 255)"
+word facesOf(const cadModel& model)
 {
     List<word> seen;
     for (const cadFace& f : model.faces)
@@ -30,7 +40,8 @@ word coloursOf(const cadModel& model)
                        " " + std::to_string(f.colour[2]) + ")";
         if (f.coloured && std::find(seen.begin(), seen.end(), c) == seen.end()) seen.push_back(c);
     }
-    return seen.empty() ? word("no colours") : "the colours " + join(seen);
+    return std::to_string(model.faces.size()) + " faces with " +
+           (seen.empty() ? word("no colours") : "the colours " + join(seen));
 }
 
 }  // namespace
@@ -43,7 +54,10 @@ particleDict::particleDict(const word& caseFolder)
     if (nDims != 2 && nDims != 3) dict_.fail("nDims", "nDims must be 2 or 3");
     support = dx * dict_.getInRangeOrDefault("support", 1, 10, 2.6);
     origin = dict_.getOrDefault<vector>("origin", vector::Zero());
-    stripLayers = dict_.getOrDefault<label>("stripLayers", 2);
+    stripLayers = dict_.getInRangeOrDefault<label>("stripLayers", 1, 100, 2);
+    cad_.meshSize = dict_.getInRangeOrDefault("surfaceSize", 0.01 * dx, 1000 * dx, dx);
+    cad_.timeLimit = dict_.getInRangeOrDefault("timeLimit", 1, 1e6, cad_.timeLimit);
+    weldTolerance_ = dict_.getInRangeOrDefault("weldTolerance", 0, 0.5 * dx, 1e-3 * dx);
     defaultPatch_ = dict_.getOrDefault<word>("defaultPatch", "walls");
     readBoundary();
 }
@@ -54,6 +68,7 @@ void particleDict::readBoundary()
     for (const word& name : boundary.dictKeys())
     {
         const dictionary& patch = boundary.subDict(name);
+        checkName(boundary, name);
         const word type = patch.choose("type", {"wall", "open", "symmetryPlane", "cyclic"});
         patchInfo info{name, patchInfo::kind::other, patch.found("motion")};
         if (type == "wall") info.type = patchInfo::kind::wall;
@@ -62,8 +77,9 @@ void particleDict::readBoundary()
         {
             halfSpace side;
             side.point = patch.get<vector>("point");
-            side.normal = patch.get<vector>(type == "cyclic" ? "separation" : "normal");
-            if (side.normal.norm() == 0) patch.fail("normal", "the normal must not be zero");
+            const word key = type == "cyclic" ? "separation" : "normal";
+            side.normal = patch.get<vector>(key);
+            if (side.normal.norm() == 0) patch.fail(key, key + " must not be zero");
             const vector shift = side.normal;
             side.normal.normalize();
             if (type == "symmetryPlane") planes_.push_back(side);
@@ -76,22 +92,31 @@ void particleDict::readBoundary()
 
 const cadModel& particleDict::model(const dictionary& dict)
 {
-    const word file = dict.get<word>("file");
-    const auto known = models_.find(file);
-    if (known != models_.end()) return known->second;
-    cadSettings settings;
-    settings.meshSize = dict_.getOrDefault<scalar>("surfaceSize", dx);
-    settings.unit = dict.getOrDefault<word>("unit", "");
-    settings.timeLimit = dict_.getOrDefault<scalar>("timeLimit", 600);
-    const word path = file.front() == '/' ? file : caseFolder_ + "/" + file;
-    cadModel read = readCad(path, settings);
-    sources.push_back(file);
-    namePatches(read);
-    return models_.emplace(file, std::move(read)).first->second;
+    const word file = dict.get<word>("file"), unit = dict.getOrDefault<word>("unit", "");
+    if (const auto known = models_.find(file); known != models_.end())
+    {
+        if (!unit.empty() && unit != known->second.unit)
+            dict.fail("unit", "An earlier zone reads the same file in " + known->second.unit);
+        return known->second;
+    }
+    cadSettings settings = cad_;
+    settings.unit = unit;
+    try
+    {
+        cadModel read = readCad(fromFolder(caseFolder_, file), settings);
+        sources.push_back(file);
+        namePatches(read);
+        return models_.emplace(file, std::move(read)).first->second;
+    }
+    catch (const fatalError& error)
+    {
+        if (error.hasLocation()) throw;
+        dict.fail("file", error.what());
+    }
 }
 
 // Writes the patch asked for into each face's surface
-void particleDict::namePatches(cadModel& model) const
+void particleDict::namePatches(cadModel& model)
 {
     const dictionary patches = dict_.subOrEmptyDict("patches");
     List<word> valid;
@@ -103,14 +128,22 @@ void particleDict::namePatches(cadModel& model) const
                 name, "constant/boundary has no patch " + name + ". " + validWords("name", valid));
         const faceSelector selector(patches.subDict(name));
         if (!selector.any()) patches.fail(name, "Say which faces: colour, faces, group or box");
-        bool found = false;
         for (cadFace& face : model.faces)
-            if (selector.matches(face)) face.surface.patchNames = {name}, found = true;
-        if (!found)
-            patches.fail(name, "No face of " + model.path + " has " + selector.describe() +
-                                   "; the file has " + std::to_string(model.faces.size()) +
-                                   " faces with " + coloursOf(model));
+            if (selector.matches(face))
+                face.surface.patchNames = {name}, foundPatches_.insert(name);
     }
+}
+
+void particleDict::checkPatchesFound() const
+{
+    if (models_.empty()) return;
+    const dictionary patches = dict_.subOrEmptyDict("patches");
+    List<word> files;
+    for (const auto& [file, model] : models_) files.push_back(file + " has " + facesOf(model));
+    for (const word& name : patches.dictKeys())
+        if (!foundPatches_.count(name))
+            patches.fail(name, "No face has " + faceSelector(patches.subDict(name)).describe() +
+                                   "; " + join(files, ", "));
 }
 
 // Faces in the plane of a flat patch belong to it without being named
@@ -127,30 +160,40 @@ void particleDict::nameByPlane(triSurface& surface) const
         }
 }
 
-body particleDict::cadBody(const word& zone, const dictionary& dict)
+// A body per volume of the file: those that touch have no closed surface in common
+List<body> particleDict::cadBodies(const word& zone, const dictionary& dict)
 {
     const cadModel& cad = model(dict);
     const faceSelector selector(dict);
-    List<label> tags;
-    scalar volume = 0;
+    selector.checkFaces(cad);
+    std::map<label, int> owners;  // of a face between two volumes: both
+    for (const cadVolume& v : cad.volumes)
+        for (const label f : v.faces) ++owners[f];
+    List<body> bodies;
     for (const cadVolume& v : cad.volumes)
     {
         bool taken = !selector.any() || selector.matches(v);
-        for (const label f : v.faces) taken = taken || selector.matches(cad.face(f));
-        if (!taken) continue;
-        tags.insert(tags.end(), v.faces.begin(), v.faces.end());
-        volume += v.volume;
+        for (const label f : v.faces)
+            taken = taken || (owners[f] == 1 && selector.matches(cad.face(f)));
+        if (taken) bodies.push_back(cadBody(zone, cad, v.faces, v.volume));
     }
-    if (tags.empty())
-        for (const cadFace& f : cad.faces)
-            if (!selector.any() || selector.matches(f)) tags.push_back(f.tag);
-    if (tags.empty())
+    if (!bodies.empty()) return bodies;
+    List<label> faces;
+    for (const cadFace& f : cad.faces)
+        if (!selector.any() || selector.matches(f)) faces.push_back(f.tag);
+    if (faces.empty())
         dict.fail("file", "No face of " + cad.path + " has " + selector.describe() + " for zone " +
-                              zone + "; the file has " + std::to_string(cad.faces.size()) +
-                              " faces with " + coloursOf(cad));
+                              zone + "; the file has " + facesOf(cad));
+    bodies.push_back(cadBody(zone, cad, faces, 0));
+    return bodies;
+}
+
+body particleDict::cadBody(const word& zone, const cadModel& cad, const List<label>& faces,
+                           scalar volume) const
+{
     body b{-1, {}, volume};
-    for (const label tag : tags) b.surface.append(cad.face(tag).surface);
-    b.surface.weld(dict_.getOrDefault<scalar>("weldTolerance", 1e-3 * dx));
+    for (const label tag : faces) b.surface.append(cad.face(tag).surface);
+    b.surface.weld(weldTolerance_);
     orientOutward(b.surface);
     const scalar meshed = b.surface.volume();
     if (volume > 0 && std::abs(meshed / volume - 1) > 0.01)
@@ -172,22 +215,22 @@ body particleDict::shapeBody(const dictionary& dict)
 void particleDict::addZone(const word& name, List<body>& bodies)
 {
     const dictionary& dict = dict_.subDict("zones").subDict(name);
+    checkName(dict_.subDict("zones"), name);
     if (dict.found("file") == dict.found("shape"))
         dict.fail("phase", "Zone " + name + " needs either a file or a shape");
-    body b = dict.found("file") ? cadBody(name, dict) : shapeBody(dict);
-    nameByPlane(b.surface);
+    List<body> own = dict.found("file") ? cadBodies(name, dict) : List<body>{shapeBody(dict)};
     const zoneInfo zone = readZone(name, dict);
-    if (zone.phase == phaseType::rigid)
+    const bool rigid = zone.phase == phaseType::rigid;
+    for (body& b : own)
     {
-        b.surface.patchNames.assign(b.surface.patchNames.size(), name);
+        nameByPlane(b.surface);
+        if (rigid) b.surface.patchNames.assign(b.surface.patchNames.size(), name);
+        else b.zone = label(zones_.size());
+        bodies.push_back(std::move(b));
     }
-    else
-    {
-        b.zone = label(zones_.size());
-        zones_.push_back(zone);
-        initial_.emplace_back(dict, dx);
-    }
-    bodies.push_back(std::move(b));
+    if (rigid) return;
+    zones_.push_back(zone);
+    initial_.emplace_back(dict, dx, nDims);
 }
 
 bool particleDict::mustFit(const List<body>& bodies) const
@@ -204,6 +247,7 @@ zoneGeometry particleDict::geometry()
 {
     List<body> bodies;
     for (const word& name : dict_.subDict("zones").dictKeys()) addZone(name, bodies);
+    checkPatchesFound();
     if (zones_.empty()) dict_.fail("zones", "At least one zone of phase fluid or solid is needed");
     const word word_ = dict_.chooseOrDefault("placement", {"lattice", "bodyFitted"},
                                              mustFit(bodies) ? "bodyFitted" : "lattice");

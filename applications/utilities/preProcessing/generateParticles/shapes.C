@@ -18,6 +18,57 @@ word shapeOf(const dictionary& dict)
     return dict.choose("shape", {"box", "sphere", "ellipsoid", "cylinder", "annulus"});
 }
 
+// Radii beyond these, in dx, are mistakes of the unit
+constexpr scalar smallest = 0.1;
+constexpr scalar largest(int nDims)
+{
+    return nDims == 3 ? 2e3 : 1e4;
+}
+
+scalar radiusOf(const dictionary& dict, const word& key, scalar dx, int nDims)
+{
+    return dict.getInRange(key, smallest * dx, largest(nDims) * dx);
+}
+
+vector semiAxesOf(const dictionary& dict, scalar dx, int nDims)
+{
+    const vector axes = dict.get<vector>("semiAxes");
+    for (int d = 0; d < nDims; ++d)
+        if (!(axes[d] >= smallest * dx && axes[d] <= largest(nDims) * dx))
+            dict.fail("semiAxes", "Each of the semiAxes must lie between " + str(smallest * dx) +
+                                      " and " + str(largest(nDims) * dx));
+    return axes;
+}
+
+// Inner and outer radius
+std::pair<scalar, scalar> ringOf(const dictionary& dict, scalar dx, int nDims)
+{
+    const scalar inner = radiusOf(dict, "innerRadius", dx, nDims),
+                 outer = radiusOf(dict, "outerRadius", dx, nDims);
+    if (!(inner < outer))
+        dict.fail("innerRadius", "The innerRadius " + str(inner) +
+                                     " must be smaller than the outerRadius " + str(outer));
+    return {inner, outer};
+}
+
+// Lower and upper corner
+std::pair<vector, vector> cornersOf(const dictionary& dict, int nDims)
+{
+    const vector low = dict.get<vector>("min"), high = dict.get<vector>("max");
+    for (int d = 0; d < nDims; ++d)
+        if (!(low[d] < high[d]))
+            dict.fail("max", "Every coordinate of max must be greater than that of min");
+    return {low, high};
+}
+
+// The ends of an axis
+std::pair<vector, vector> endsOf(const dictionary& dict)
+{
+    const vector p1 = dict.get<vector>("point1"), p2 = dict.get<vector>("point2");
+    if (!((p2 - p1).norm() > 0)) dict.fail("point2", "point1 and point2 are the same point");
+    return {p1, p2};
+}
+
 // Segments of a circle so that the sag stays below 1e-3 dx; a multiple of 4 keeps symmetry planes
 label segments(scalar radius, scalar dx)
 {
@@ -126,35 +177,40 @@ triSurface flatShape(const dictionary& dict, scalar dx)
     const scalar h = prismHalfHeight * dx;
     if (shape == "box")
     {
-        vector lo = dict.get<vector>("min"), hi = dict.get<vector>("max");
+        auto [lo, hi] = cornersOf(dict, 2);
         lo[2] = -h, hi[2] = h;
         return box(lo, hi);
     }
     if (shape == "ellipsoid")
-        return prism(dict.get<vector>("centre"), dict.get<vector>("semiAxes"), 0, dx);
+        return prism(dict.get<vector>("centre"), semiAxesOf(dict, dx, 2), 0, dx);
     if (shape == "sphere")
-        return prism(dict.get<vector>("centre"), vector::Constant(dict.get<scalar>("radius")), 0,
-                     dx);
+        return prism(dict.get<vector>("centre"), vector::Constant(radiusOf(dict, "radius", dx, 2)),
+                     0, dx);
     const vector centre = dict.get<vector>("point1");
     dict.getOrDefault<vector>("point2", centre);
     if (shape == "cylinder")
-        return prism(centre, vector::Constant(dict.get<scalar>("radius")), 0, dx);
-    return prism(centre, vector::Constant(dict.get<scalar>("outerRadius")),
-                 dict.get<scalar>("innerRadius"), dx);
+        return prism(centre, vector::Constant(radiusOf(dict, "radius", dx, 2)), 0, dx);
+    const auto [inner, outer] = ringOf(dict, dx, 2);
+    return prism(centre, vector::Constant(outer), inner, dx);
 }
 
 triSurface fullShape(const dictionary& dict, scalar dx)
 {
     const word shape = shapeOf(dict);
-    if (shape == "box") return box(dict.get<vector>("min"), dict.get<vector>("max"));
+    if (shape == "box")
+    {
+        const auto [low, high] = cornersOf(dict, 3);
+        return box(low, high);
+    }
     if (shape == "sphere")
-        return ellipsoid(dict.get<vector>("centre"), vector::Constant(dict.get<scalar>("radius")),
-                         dx);
+        return ellipsoid(dict.get<vector>("centre"),
+                         vector::Constant(radiusOf(dict, "radius", dx, 3)), dx);
     if (shape == "ellipsoid")
-        return ellipsoid(dict.get<vector>("centre"), dict.get<vector>("semiAxes"), dx);
-    const vector p1 = dict.get<vector>("point1"), p2 = dict.get<vector>("point2");
-    if (shape == "cylinder") return tube(p1, p2, 0, dict.get<scalar>("radius"), dx);
-    return tube(p1, p2, dict.get<scalar>("innerRadius"), dict.get<scalar>("outerRadius"), dx);
+        return ellipsoid(dict.get<vector>("centre"), semiAxesOf(dict, dx, 3), dx);
+    const auto [p1, p2] = endsOf(dict);
+    if (shape == "cylinder") return tube(p1, p2, 0, radiusOf(dict, "radius", dx, 3), dx);
+    const auto [inner, outer] = ringOf(dict, dx, 3);
+    return tube(p1, p2, inner, outer, dx);
 }
 
 }  // namespace
@@ -163,7 +219,6 @@ triSurface makeShape(const dictionary& dict, scalar dx, int nDims)
 {
     triSurface s = nDims == 2 ? flatShape(dict, dx) : fullShape(dict, dx);
     s.weld(1e-9 * dx);
-    if (s.empty() || s.volume() == 0) dict.fail("shape", "The shape has no volume");
     orientOutward(s);
     return s;
 }
@@ -172,8 +227,7 @@ scalar shapeVolume(const dictionary& dict)
 {
     const word shape = shapeOf(dict);
     const auto scalarOf = [&](const char* key) { return dict.get<scalar>(key); };
-    if (shape == "box")
-        return (dict.get<vector>("max") - dict.get<vector>("min")).cwiseAbs().prod();
+    if (shape == "box") return (dict.get<vector>("max") - dict.get<vector>("min")).prod();
     if (shape == "sphere") return 4 * M_PI / 3 * std::pow(scalarOf("radius"), 3);
     if (shape == "ellipsoid") return 4 * M_PI / 3 * dict.get<vector>("semiAxes").prod();
     const scalar length = (dict.get<vector>("point2") - dict.get<vector>("point1")).norm();
