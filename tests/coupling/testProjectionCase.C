@@ -37,6 +37,17 @@ void disorder(particleTable& table, scalar most)
     for (vector& x : table.x) x += vector(next(), next(), 0);
 }
 
+// Water in that box under the acceleration a, in no order, with the pressure that carries it
+void fillBox(caseOnDisk& files, const word& coupling, const word& representation, const vector& a)
+{
+    files.fill(10, 20, 0.02);
+    particleTable& t = files.particles();
+    disorder(t, 0.004);
+    for (size_t i = 0; i < t.size(); ++i) t.scalars["p"][i] = 1000 * t.x[i].dot(a);
+    files.boundary = walls(representation), files.solution = "coupling " + coupling + ";";
+    files.g = "(" + str(a[0]) + " " + str(a[1]) + " 0)";
+}
+
 }  // namespace
 
 TEST_CASE("fluid at rest under gravity stays at rest, with the pressure of its depth")
@@ -72,14 +83,7 @@ TEST_CASE("fluid stays at rest between rigid and between mirror walls, with both
             CAPTURE(coupling);
             CAPTURE(representation);
             caseOnDisk files("restInBox");
-            files.fill(10, 20, 0.02);
-            disorder(files.particles(), 0.004);
-            files.boundary = walls(representation);
-            files.solution = "coupling " + coupling + ";";
-            files.g = "(1 -9.81 0)";
-            for (size_t i = 0; i < files.particles().size(); ++i)
-                files.particles().scalars["p"][i] =
-                    1000 * files.particles().x[i].dot(vector(1, -9.81, 0));
+            fillBox(files, coupling, representation, {1, -9.81, 0});
             files.write();
             capturedLog log;
             Time time(files.path());
@@ -104,17 +108,10 @@ TEST_CASE("accelerations that differ a little between zones move the fluid a lit
             CAPTURE(coupling);
             CAPTURE(representation);
             caseOnDisk files("restOfTwoZones");
-            files.fill(10, 20, 0.02);
+            fillBox(files, coupling, representation, {0, -g, 0});
             particleTable& t = files.particles();
-            disorder(t, 0.004);
             t.attributes["zones"] = "lower upper", t.attributes["phases"] = "fluid fluid";
-            for (size_t i = 0; i < t.size(); ++i)
-            {
-                t.integers["zone"][i] = t.x[i][1] > 0.2;
-                t.scalars["p"][i] = -1000 * g * t.x[i][1];
-            }
-            files.boundary = walls(representation), files.solution = "coupling " + coupling + ";";
-            files.g = "(0 -9.81 0)";
+            for (size_t i = 0; i < t.size(); ++i) t.integers["zone"][i] = t.x[i][1] > 0.2;
             files.properties =
                 "rho 1000; mu 1e-3; bodyForce { upper (" + str(more, 17) + " 0 0); }";
             files.write();
