@@ -19,6 +19,7 @@ set xrange [*:*]
 set yrange [*:*]
 set xlabel "time [s]"
 set ylabel "cavity - plunger [% of the stroke]"
+set key below  # the curves may be anywhere
 stats data using 6 nooutput
 if (STATS_min == 0 && STATS_max == 0) {
     plot data using 1:(100*($3 - $2)/stroke) with lines linestyle 2 title "nothing controlled", \
