@@ -6,6 +6,7 @@
 #include "wallGuard.H"
 #include "wallMirror.H"
 #include "wallVisibility.H"
+#include "wettedArea.H"
 
 #include <algorithm>
 
@@ -19,7 +20,8 @@ struct boundary::content
     wallGuard guard;
     wallVisibility visibility;
     wallMirror mirror;
-    List<vector> facing;  // per ghost, see wallVisibility
+    List<vector> facing;                 // per ghost, see wallVisibility
+    std::unique_ptr<wettedArea> wetted;  // once asked for
     List<openFace> openFaces;
     List<label> openIndex;  // of an open face in the balance
     List<patchBalance> balance;
@@ -184,9 +186,15 @@ scalar boundary::maxWallSpeed() const
     return content_->walls.maxSpeed();
 }
 
-bool boundary::fixesPressure() const
+List<scalar> boundary::sweptRate(const particleCloud& cloud) const
 {
-    return !content_->openFaces.empty();
+    content& c = *content_;
+    if (!c.wetted)
+    {
+        c.wetted = std::make_unique<wettedArea>();
+        c.wetted->find(c.walls, c.group, cloud);
+    }
+    return c.wetted->sweptRate(c.walls);
 }
 
 bool boundary::inside(const vector& x) const

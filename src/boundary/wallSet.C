@@ -99,12 +99,16 @@ void wallSet::setStep(scalar t0, scalar t1)
     for (wall& w : walls_) w.setStep(t0, t1);
 }
 
-// In two dimensions surfaces are slices: the factor from their area to a length
 scalar wallSet::perDepth(const patchSurface& s) const
 {
     if (nDims_ == 3) return 1;
     const boundBox box = s.mesh()->bounds();
     return 1 / (box.max[2] - box.min[2]);
+}
+
+vector wallSet::planeArea(const wall& w) const
+{
+    return lattice_.area(w, walls_) * w.normal;
 }
 
 List<scalar> wallSet::moveTo(scalar t)
@@ -118,7 +122,7 @@ List<scalar> wallSet::moveTo(scalar t)
             const label w = b.walls[k];
             const vector moved = walls_[w].offset - from[w];
             const vector area =
-                walls_[w].plane ? lattice_.area(walls_[w], walls_) * walls_[w].normal
+                walls_[w].plane ? planeArea(walls_[w])
                                 : vector(perDepth(*b.surface) * b.surface->areaVector(label(k)));
             swept[w] = -moved.dot(area);
         }

@@ -177,6 +177,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
         q[i] = c_.source[cloud.zone[i]];
     if (c_.structure) system_.setup(dt, volume_.get(), &surface_, &K_);
     else system_.setup(dt, nullptr, nullptr, nullptr);
+    system_.enclosed().addDefect(q);
     preconditioner_.setup();
     system_.rightHandSide(theta_, springForce_, q, b);
 
@@ -240,6 +241,7 @@ void monolithic::advance(scalar t, scalar dt, int depth)
         return;
     }
     accept(z, dt);
+    system_.enclosed().account(cloud, dt);
     bookFeedback(dt);
     system_.hydrostatic().giveBack(cloud);
 

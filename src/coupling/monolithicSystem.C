@@ -28,22 +28,7 @@ void monolithicSystem::setup(scalar dt, const volumeConstraint* volume, const so
         tau_[i] = cloud.volume() / diagonal_[i];
     }
     rows_.setTau(tau_, dt / c_.rho);
-}
-
-// Where nothing fixes the pressure its level is free, and a difference divergence does not sum to zero
-// as it should: the mean of the continuity rows is taken out
-void monolithicSystem::balance(List<scalar>& rows) const
-{
-    if (c_.walls->fixesPressure()) return;
-    const label n = c_.cloud.n();
-    const scalar mean = parallelSum(n,
-                                    [&](label begin, label end) {
-                                        scalar sum = 0;
-                                        for (label i = begin; i < end; ++i) sum += rows[4 * i + 3];
-                                        return sum;
-                                    }) /
-                        n;
-    for (label i = 0; i < n; ++i) rows[4 * i + 3] -= mean;
+    enclosed_.setup(rows_, surface);
 }
 
 void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce,
@@ -70,7 +55,7 @@ void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce
         for (int a = 0; a < 3; ++a) b[4 * i + a] = cloud.uFixed[i] ? 0 : m[a] / diagonal_[i];
         b[4 * i + 3] = cloud.pFixed[i] ? cloud.pGiven[i] : cloud.dx * (q[i] - gp_[i][3] - cp_[i]);
     }
-    balance(b);
+    enclosed_.balance(b);
 }
 
 void monolithicSystem::apply(const List<scalar>& x, List<scalar>& y) const
@@ -103,7 +88,7 @@ void monolithicSystem::apply(const List<scalar>& x, List<scalar>& y) const
             y[4 * i + 3] = cloud.pFixed[i] ? phi_[i].s[3] : cloud.dx * (gp_[i].s[3] - cp_[i]);
         }
     });
-    balance(y);
+    enclosed_.balance(y);
 }
 
 }  // namespace ispf

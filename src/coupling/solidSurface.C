@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solidSurface.H"
+#include "followWeights.H"
+#include "pointGrid.H"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,7 @@ namespace
 {
 
 constexpr const char* areaField[2] = {"surfaceAreaA", "surfaceAreaB"};  // {S0, zone + 1}
+constexpr scalar sharpest = 0.3;                                        // an edge is no curvature
 constexpr const char* wayField[2] = {"surfaceWayA", "surfaceWayB"};     // {e0, -}
 
 // Fluid zone of a neighbour, -1 for a rigid one
@@ -18,6 +21,43 @@ int fluidZone(const particleCloud& cloud, label j)
 {
     if (cloud.phase[j] == phaseType::rigid) return -1;
     return cloud.zone[j < cloud.n() ? j : cloud.ghostSource(j)];
+}
+
+// int W y^2 over a line (2D) or a plane (3D) through the kernel's centre, y along one direction.  On a
+// surface with normals n out of the solid 1/2 - m div n / 2 of the kernel lies in the solid
+scalar secondMoment(const smoothingKernel& kernel, int nDims)
+{
+    constexpr int nPoints = 200;
+    const scalar dr = kernel.support() / nPoints;
+    scalar sum = 0;
+    for (int q = 0; q < nPoints; ++q)
+    {
+        const scalar r = (q + 0.5) * dr;
+        sum += kernel.W(r) * (nDims == 3 ? M_PI * r * r * r : 2 * r * r) * dr;
+    }
+    return sum;
+}
+
+// div n about solid particle i: the least-squares slope through its neighbours, {normal, weight} of each
+scalar divergence(const particleCloud& cloud, const neighbourList& list, const List<vec4>& n,
+                  label i)
+{
+    scalar sum = 0;
+    vector dMean = vector::Zero(), nMean = vector::Zero();
+    tensor slope = tensor::Zero(), moment = tensor::Zero();
+    for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
+    {
+        const label j = list.index[k];
+        const vector d = cloud.x[j].xyz() - cloud.x[i].xyz();
+        const scalar w = -list.F[k] * n[j][3];
+        sum += w, dMean += w * d, nMean += w * n[j].xyz();
+        slope += w * n[j].xyz() * d.transpose(), moment += w * d * d.transpose();
+    }
+    if (!(sum > 0)) return 0;
+    slope -= nMean * dMean.transpose() / sum, moment -= dMean * dMean.transpose() / sum;
+    // a single layer has no extent along its normal, nor does n change along it
+    moment += (1e-6 * moment.trace() + 1e-300) * tensor::Identity();
+    return (slope * moment.inverse()).trace();
 }
 
 // Depth below a plane from the fraction of the kernel beyond it,
@@ -57,6 +97,49 @@ private:
     scalar beyond_[nDepths + 1];
 };
 
+// The two fluid zones that weigh most about solid particle i: V sum grad W [m^nDims-1] and V sum W of each
+struct sideSums
+{
+    label zone[2] = {-1, -1};
+    vector area[2];
+    scalar fraction[2];
+
+    sideSums(const particleCloud& cloud, const neighbourList& list, const smoothingKernel& kernel,
+             label i)
+    {
+        const scalar V = cloud.volume(), least = 1e-3 * V / cloud.dx;  // below it is out of sight
+        List<vector> areas(cloud.zones.size(), vector::Zero());
+        List<scalar> fractions(cloud.zones.size(), 0);
+        tensor moment = tensor::Zero();
+        for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
+        {
+            const vector xij = cloud.x[i].xyz() - cloud.x[list.index[k]].xyz();
+            moment -= list.F[k] * xij * xij.transpose();
+        }
+        for (std::int64_t k = list.mid[i]; k < list.start[i + 1]; ++k)
+        {
+            const label j = list.index[k];
+            const int z = fluidZone(cloud, j);
+            if (z < 0) continue;
+            const vector xij = cloud.x[i].xyz() - cloud.x[j].xyz();
+            areas[z] += V * list.F[k] * xij;
+            fractions[z] += V * kernel.W(xij.norm());
+        }
+        for (const int s : {0, 1})
+        {
+            const auto most = std::max_element(
+                areas.begin(), areas.end(),
+                [](const vector& a, const vector& b) { return a.norm() < b.norm(); });
+            if (most->norm() < least) break;
+            zone[s] = label(most - areas.begin());
+            const vector n = most->normalized();
+            area[s] = *most / std::clamp(n.dot(moment * n), 0.9, 1.1);
+            fraction[s] = fractions[zone[s]];
+            most->setZero();
+        }
+    }
+};
+
 }  // namespace
 
 void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
@@ -67,36 +150,29 @@ void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
         for (const char* name : {areaField[s], wayField[s]})
             cloud.vectors[name].assign(cloud.n(), vec4{});
     const depthTable table(kernel, cloud.nDims);
-    const scalar V = cloud.volume(), least = 2e-3 * V / cloud.dx;
-    List<vector> area(cloud.zones.size());
-    List<scalar> fraction(cloud.zones.size());
-    for (label i = 0; i < cloud.nSolid(); ++i)
+    List<sideSums> sides;
+    for (label i = 0; i < cloud.nSolid(); ++i) sides.emplace_back(cloud, list, kernel, i);
+    const scalar m = secondMoment(kernel, cloud.nDims);
+    for (label z = 0; z < label(cloud.zones.size()); ++z)
     {
-        for (vector& a : area) a.setZero();
-        std::fill(fraction.begin(), fraction.end(), 0);
-        for (std::int64_t k = list.mid[i]; k < list.start[i + 1]; ++k)
-        {
-            const label j = list.index[k];
-            const int z = fluidZone(cloud, j);
-            if (z < 0) continue;
-            const vector xij = cloud.x[i].xyz() - cloud.x[j].xyz();
-            area[z] += 2 * V * list.F[k] * xij;
-            fraction[z] += V * kernel.W(xij.norm());
-        }
-        // the two zones that weigh most; below `least` a zone is out of sight
-        for (const int s : {0, 1})
-        {
-            const auto most = std::max_element(
-                area.begin(), area.end(),
-                [](const vector& a, const vector& b) { return a.norm() < b.norm(); });
-            if (most->norm() < least) break;
-            const label z = label(most - area.begin());
-            const vector e = table.depth(fraction[z]) * most->normalized();
-            cloud.vectors[areaField[s]][i] =
-                vec4::from(F[i].transpose() * *most / F[i].determinant(), scalar(z + 1));
-            cloud.vectors[wayField[s]][i] = vec4::from(F[i].inverse() * e);
-            most->setZero();
-        }
+        List<vec4> normal(cloud.nAll(), vec4{});
+        for (label i = 0; i < cloud.nSolid(); ++i)
+            for (const int s : {0, 1})
+                if (const vector& a = sides[i].area[s]; sides[i].zone[s] == z)
+                    normal[i] = vec4::from(a.normalized(), a.norm());
+        cloud.fillGhosts(normal, true);
+        for (label i = 0; i < cloud.nSolid(); ++i)
+            for (const int s : {0, 1})
+            {
+                if (sides[i].zone[s] != z) continue;
+                const scalar curved =
+                    std::clamp(m * divergence(cloud, list, normal, i), -sharpest, sharpest);
+                const vector S = 2 * (1 + curved) * sides[i].area[s];
+                const vector e = table.depth(sides[i].fraction[s]) * normal[i].xyz();
+                cloud.vectors[areaField[s]][i] =
+                    vec4::from(F[i].transpose() * S / F[i].determinant(), scalar(z + 1));
+                cloud.vectors[wayField[s]][i] = vec4::from(F[i].inverse() * e);
+            }
     }
 }
 
@@ -104,6 +180,7 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
                          const smoothingKernel& kernel, const List<tensor>& cofactor)
 {
     cloud_ = &cloud, list_ = &list;
+    if (feet_[0].start.empty()) findFeet(cloud);
     const label nSolid = cloud.nSolid();
     start_.assign(nSolid + 1, 0);
     for (label i = 0; i < nSolid; ++i) start_[i + 1] = start_[i] + list.start[i + 1] - list.mid[i];
@@ -111,20 +188,91 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
     parallelFor(
         nSolid,
         [&](label begin, label end) {
-            for (label i = begin; i < end; ++i) setupParticle(i, kernel, cofactor[i]);
+            for (label i = begin; i < end; ++i) setupParticle(i, kernel, cofactor);
         },
         256);
 }
 
-void solidSurface::setupParticle(label i, const smoothingKernel& kernel, const tensor& cofactor)
+// The feet do not move within the solid: found once, from the rest state
+void solidSurface::findFeet(const particleCloud& cloud)
+{
+    const List<vec4>& x0 = cloud.vectors.at("x0");
+    const scalar reach = 3 * cloud.dx;
+    pointGrid solids(reach);
+    for (label j = 0; j < cloud.nSolid(); ++j) solids.add(x0[j].xyz());
+    for (const int s : {0, 1})
+    {
+        const List<vec4>&A = cloud.vectors.at(areaField[s]), &e = cloud.vectors.at(wayField[s]);
+        List<List<label>> near(cloud.nSolid());
+        List<List<scalar>> weight(cloud.nSolid());
+        parallelFor(
+            cloud.nSolid(),
+            [&](label begin, label end) {
+                for (label i = begin; i < end; ++i)
+                {
+                    if (A[i][3] == 0) continue;
+                    const vector foot = x0[i].xyz() + e[i].xyz();
+                    List<vector> r;
+                    solids.within(foot, reach, [&](label j, scalar) { near[i].push_back(j); });
+                    std::sort(near[i].begin(), near[i].end());
+                    for (const label j : near[i]) r.push_back((solids[j] - foot) / reach);
+                    weight[i] = followWeights(r);
+                }
+            },
+            16);
+        feet& f = feet_[s];
+        f.start.push_back(0);
+        for (label i = 0; i < cloud.nSolid(); ++i)
+        {
+            f.source.insert(f.source.end(), near[i].begin(), near[i].end());
+            f.weight.insert(f.weight.end(), weight[i].begin(), weight[i].end());
+            f.start.push_back(label(f.source.size()));
+        }
+    }
+}
+
+scalar solidSurface::flux(const List<vec4>& u, const List<char>& zones) const
+{
+    return parallelSum(cloud_->nSolid(), [&](label begin, label end) {
+        scalar sum = 0;
+        for (label i = begin; i < end; ++i)
+            for (const int s : {0, 1})
+            {
+                if (part_[s][i].side < 0 || !zones[part_[s][i].side]) continue;
+                simd4 at = {};
+                for (label k = feet_[s].start[i]; k < feet_[s].start[i + 1]; ++k)
+                    at += feet_[s].weight[k] * u[feet_[s].source[k]].s;
+                sum -= part_[s][i].S.dot(vector(at[0], at[1], at[2]));
+            }
+        return sum;
+    });
+}
+
+scalar solidSurface::area(const List<char>& zones) const
+{
+    scalar sum = 0;
+    for (const int s : {0, 1})
+        for (const sided& p : part_[s])
+            if (p.side >= 0 && zones[p.side]) sum += p.S.norm();
+    return sum;
+}
+
+void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
+                                 const List<tensor>& cofactor)
 {
     const particleCloud& cloud = *cloud_;
     for (const int s : {0, 1})
     {
         const vec4& S0 = cloud.vectors.at(areaField[s])[i];
         sided& part = part_[s][i];
-        part = {int(S0[3]) - 1, cofactor * S0.xyz(), cloud.vectors.at(wayField[s])[i].xyz()};
+        part = {int(S0[3]) - 1, vector::Zero(), cloud.vectors.at(wayField[s])[i].xyz()};
         if (part.side < 0) continue;
+        // on the surface: an inflated ring's layers are stretched the less the deeper they lie
+        const feet& f = feet_[s];
+        tensor there = tensor::Zero();
+        for (label k = f.start[i]; k < f.start[i + 1]; ++k)
+            there += f.weight[k] * cofactor[f.source[k]];
+        part.S = there * S0.xyz();
         scalar sum = 0;
         const label m = label(start_[i + 1] - start_[i]);
         scalar* w = weight_[s].data() + start_[i];

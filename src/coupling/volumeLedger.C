@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volumeLedger.H"
+#include "enclosedFluid.H"
 
 #include <filesystem>
 #include <iomanip>
@@ -35,8 +36,8 @@ volumeLedger::volumeLedger(fsiCase& c) : c_(c)
     file_.open(folder + "/volumeLedger.dat");
     if (!file_) throw fatalError("Cannot write " + folder + "/volumeLedger.dat");
     file_ << "# Volumes of the whole body [m^" << c.cloud.nDims
-          << "] since the start; control, wallFeedback: put in by them\n"
-          << "# Time\tswept\tcavity\topenNet\twall\tcontrol\twallFeedback\n";
+          << "] since the start; control, wallFeedback, defect: put in\n"
+          << "# Time\tswept\tcavity\topenNet\twall\tcontrol\twallFeedback\tdefect\n";
 }
 
 scalar volumeLedger::swept() const
@@ -56,10 +57,21 @@ scalar volumeLedger::wallVolume() const
     return sum * c_.cloud.volume() * c_.walls->symmetryFactor();
 }
 
+// The last number of an entry of the history, of the whole body
+static scalar booked(const fsiCase& c, const word& entry)
+{
+    const auto found = c.cloud.history.find(entry);
+    return found == c.cloud.history.end() ? 0 : found->second.back() * c.walls->symmetryFactor();
+}
+
 scalar volumeLedger::wallFeedback() const
 {
-    const auto booked = c_.cloud.history.find(solidFeedback);
-    return booked == c_.cloud.history.end() ? 0 : booked->second.at(0) * c_.walls->symmetryFactor();
+    return booked(c_, solidFeedback);
+}
+
+scalar volumeLedger::defect() const
+{
+    return booked(c_, divergenceDefect);
 }
 
 void volumeLedger::update(scalar dt)
@@ -93,7 +105,7 @@ void volumeLedger::writeLine()
     file_ << std::scientific << std::setprecision(6) << std::setw(14) << std::left
           << c_.time.timeName();
     const scalar wall = wallVolume() - wall0_, feedback = wallFeedback();
-    for (const scalar v : {swept(), cavityChange(), open, wall, controlled_, feedback})
+    for (const scalar v : {swept(), cavityChange(), open, wall, controlled_, feedback, defect()})
         file_ << '\t' << v;
     file_ << std::endl;
     const auto inMm = [&](scalar v) {
