@@ -119,48 +119,56 @@ void enclosedFluid::checkPushed(const body& b) const
 
 void enclosedFluid::addDefect(List<scalar>& q)
 {
-    const particleCloud& cloud = c_.cloud;
     if (bodies_.empty() || allFree_) return;
-    const List<scalar> state = stateOf(cloud);
-    const label nz = label(cloud.zones.size());
-    for (body& b : bodies_) b.source = b.volume = 0;
+    const particleCloud& cloud = c_.cloud;
+    const state s(cloud);
+    for (body& b : bodies_) b.source = b.volume = 0, b.added = s.defect[b.zones.front()];
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
     {
         const label z = cloud.zone[i], own = bodyOf_[z];
         if (own < 0 || bodies_[own].free) continue;
-        const scalar V = cloud.volume() * state[nz + z];
-        q[i] += state[z];
-        bodies_[own].source += q[i] * V, bodies_[own].volume += V;
+        body& b = bodies_[own];
+        const scalar V = cloud.volume() * s.expansion[z];
+        q[i] += b.added;
+        b.source += q[i] * V, b.volume += V;
     }
 }
 
 void enclosedFluid::account(particleCloud& cloud, scalar dt) const
 {
     if (bodies_.empty() || allFree_) return;
-    List<scalar>& state = cloud.history[divergenceDefect] = stateOf(cloud);
-    const size_t nz = cloud.zones.size();
+    state s(cloud);
     for (const body& b : bodies_)
     {
         if (b.free) continue;
-        const scalar grown = surface_->flux(cloud.Up, b.isZone);
-        state[2 * nz] += state[b.zones.front()] * b.volume * dt;
+        const scalar gives = surface_->flux(cloud.Up, b.isZone);
+        s.booked += b.added * b.volume * dt;
         for (const label z : b.zones)
         {
-            state[z] = (b.source - (grown - b.pushed)) / b.volume;
-            if (!c_.source.empty()) state[nz + z] *= 1 + c_.source[z] * dt;
+            s.defect[z] = (b.source - (gives - b.pushed)) / b.volume;
+            if (!c_.source.empty()) s.expansion[z] *= 1 + c_.source[z] * dt;
         }
     }
+    s.write(cloud);
 }
 
-// The entry of the history, or what it is at the start
-List<scalar> enclosedFluid::stateOf(const particleCloud& cloud) const
+enclosedFluid::state::state(const particleCloud& cloud)
+    : defect(cloud.zones.size(), 0), expansion(cloud.zones.size(), 1)
 {
-    const size_t nz = cloud.zones.size();
     const auto found = cloud.history.find(divergenceDefect);
-    if (found != cloud.history.end() && found->second.size() == 2 * nz + 1) return found->second;
-    List<scalar> state(2 * nz + 1, 0);
-    std::fill_n(state.begin() + std::ptrdiff_t(nz), nz, 1);
-    return state;
+    const size_t nz = defect.size();
+    if (found == cloud.history.end() || found->second.size() != 2 * nz + 1) return;
+    const scalar* from = found->second.data();
+    std::copy_n(from, nz, defect.begin()), std::copy_n(from + nz, nz, expansion.begin());
+    booked = from[2 * nz];
+}
+
+void enclosedFluid::state::write(particleCloud& cloud) const
+{
+    List<scalar>& to = cloud.history[divergenceDefect];
+    to = defect;
+    to.insert(to.end(), expansion.begin(), expansion.end());
+    to.push_back(booked);
 }
 
 // Of a body, -1: of all particles

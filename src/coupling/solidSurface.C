@@ -56,7 +56,8 @@ scalar divergence(const particleCloud& cloud, const neighbourList& list, const L
     if (!(sum > 0)) return 0;
     slope -= nMean * dMean.transpose() / sum, moment -= dMean * dMean.transpose() / sum;
     // a single layer has no extent along its normal, nor does n change along it
-    moment += (1e-6 * moment.trace() + 1e-300) * tensor::Identity();
+    if (!(moment.trace() > 1e-3 * sum * cloud.dx * cloud.dx)) return 0;  // a single neighbour
+    moment += 1e-6 * moment.trace() * tensor::Identity();
     return (slope * moment.inverse()).trace();
 }
 
@@ -238,7 +239,8 @@ scalar solidSurface::flux(const List<vec4>& u, const List<char>& zones) const
         for (label i = begin; i < end; ++i)
             for (const int s : {0, 1})
             {
-                if (part_[s][i].side < 0 || !zones[part_[s][i].side]) continue;
+                // what is clamped rests up to its edge, whatever its neighbours' motion extrapolates to
+                if (part_[s][i].side < 0 || !zones[part_[s][i].side] || cloud_->uFixed[i]) continue;
                 simd4 at = {};
                 for (label k = feet_[s].start[i]; k < feet_[s].start[i + 1]; ++k)
                     at += feet_[s].weight[k] * u[feet_[s].source[k]].s;
