@@ -4,7 +4,7 @@
 //     monolithic
 //     {
 //         tolerance   1e-4;     // of the step's initial residual
-//         absTolerance 1e-6;    // times the velocity scale, per particle: a floor for warm starts
+//         absTolerance 1e-5;    // times the velocity scale, per particle: a floor for warm starts
 //         maxIter     150;
 //         theta       0.95;     // memory of the pressure stabiliser; fluid alone: 0, it moves on
 //         volumeFeedback 0.1;   // relaxes J - 1 of the solid, per step; booked by the volume ledger
@@ -41,7 +41,7 @@ public:
           theta_(dict_.getInRangeOrDefault("theta", 0, 1, c.structure ? 0.95 : 0)),
           alpha_(dict_.getInRangeOrDefault("volumeFeedback", 0, 1, 0.1)),
           tolerance_(dict_.getInRangeOrDefault("tolerance", 1e-14, 0.1, 1e-4)),
-          absTolerance_(dict_.getInRangeOrDefault("absTolerance", 0, 0.1, 1e-6)),
+          absTolerance_(dict_.getInRangeOrDefault("absTolerance", 0, 0.1, 1e-5)),
           maxIter_(dict_.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
           shifting_(c.solution.subOrEmptyDict("shifting"))
     {
