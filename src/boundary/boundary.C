@@ -20,8 +20,8 @@ struct boundary::content
     wallGuard guard;
     wallVisibility visibility;
     wallMirror mirror;
-    List<vector> facing;                 // per ghost, see wallVisibility
-    std::unique_ptr<wettedArea> wetted;  // once asked for
+    List<vector> facing;  // per ghost, see wallVisibility
+    wettedArea wetted;
     List<openFace> openFaces;
     List<label> openIndex;  // of an open face in the balance
     List<patchBalance> balance;
@@ -77,6 +77,7 @@ boundary::boundary(const word& caseFolder, const dictionary& patches, const part
     c.group.close(cloud, support);
     c.walls.read(caseFolder, patches, c.group, cloud, support);
     c.walls.setStep(0, 1);
+    c.wetted.find(c.walls, c.group, cloud);
     c.visibility.find(c.walls, support);
     c.mirror.find(c.walls, support);
     c.addOpenFaces(caseFolder, patches, cloud);
@@ -186,15 +187,9 @@ scalar boundary::maxWallSpeed() const
     return content_->walls.maxSpeed();
 }
 
-List<scalar> boundary::sweptRate(const particleCloud& cloud) const
+sweptRates boundary::swept(const particleCloud& cloud) const
 {
-    content& c = *content_;
-    if (!c.wetted)
-    {
-        c.wetted = std::make_unique<wettedArea>();
-        c.wetted->find(c.walls, c.group, cloud);
-    }
-    return c.wetted->sweptRate(c.walls);
+    return content_->wetted.rates(content_->walls, cloud);
 }
 
 bool boundary::inside(const vector& x) const

@@ -3,6 +3,7 @@
 #include "pointGrid.H"
 #include "surfaceRefinement.H"
 
+#include <cmath>
 #include <limits>
 
 namespace ispf
@@ -11,33 +12,10 @@ namespace ispf
 namespace
 {
 
-constexpr scalar sight = 2;  // [dx] before a wall's surface
+// [dx] The fluid before a part is looked for about a point so far before it, so far around
+constexpr scalar ahead = 0.7, sight = 1.2;
 
-class fluidPoints
-{
-public:
-    explicit fluidPoints(const particleCloud& cloud) : cloud_(cloud), grid_(sight * cloud.dx)
-    {
-        for (label i = cloud.nSolid(); i < cloud.n(); ++i) grid_.add(cloud.x[i].xyz());
-    }
-    // Zone of the nearest particle before the surface at x with outward normal n; -1: none in sight
-    label zoneBefore(const vector& x, const vector& n) const
-    {
-        scalar nearest = sight * cloud_.dx;
-        label zone = -1;
-        grid_.within(x, nearest, [&](label k, scalar r) {
-            if (r < nearest && (grid_[k] - x).dot(n) < 0)
-                nearest = r, zone = cloud_.zone[cloud_.nSolid() + k];
-        });
-        return zone;
-    }
-
-private:
-    const particleCloud& cloud_;
-    pointGrid grid_;
-};
-
-// Zone of the fluid particle nearest before a plane
+// Zone of the fluid particle nearest before a plane, -1 without fluid
 label zoneBefore(const wall& w, const particleCloud& cloud)
 {
     scalar nearest = std::numeric_limits<scalar>::max();
@@ -54,9 +32,6 @@ label zoneBefore(const wall& w, const particleCloud& cloud)
 
 void wettedArea::find(const wallSet& walls, const imageGroup& group, const particleCloud& cloud)
 {
-    nZones_ = cloud.zones.size();
-    parts_.clear();
-    std::unique_ptr<fluidPoints> fluid;  // made for the first wall that needs them
     for (const wallSet::body& b : walls.bodies())
     {
         const label index = b.walls.front();  // a moving wall is a body of its own
@@ -64,43 +39,61 @@ void wettedArea::find(const wallSet& walls, const imageGroup& group, const parti
         if (!w.motion.moves()) continue;
         if (w.plane)
         {
-            if (const label zone = zoneBefore(w, cloud); zone >= 0)
-                parts_.push_back({index, zone, vector::Zero()});
+            planes_.push_back(index);
             continue;
         }
-        if (!fluid) fluid = std::make_unique<fluidPoints>(cloud);
-        List<vector> area(nZones_, vector::Zero());
         triSurface s = *b.surface->mesh();
         refine(s, 1.5 * cloud.dx);
         for (label t = 0; t < s.size(); ++t)
         {
-            const vector centre = (s.corner(t, 0) + s.corner(t, 1) + s.corner(t, 2)) / 3;
+            vector centre = (s.corner(t, 0) + s.corner(t, 1) + s.corner(t, 2)) / 3;
             if (group.beyond(centre) > 0) continue;  // an image
-            const vector a = walls.perDepth(*b.surface) * s.areaVector(t);
-            for (const scalar side : {1, -1})
-            {
-                if (side < 0 && !b.twoSided) continue;
-                const label zone = fluid->zoneBefore(centre + w.offset, side * s.normal(t));
-                if (zone >= 0) area[zone] += side * a;
-            }
+            if (cloud.nDims == 2) centre[2] = 0;
+            const vector area = walls.perDepth(*b.surface) * s.areaVector(t);
+            parts_.push_back({index, centre, s.normal(t), area});
+            if (b.twoSided) parts_.push_back({index, centre, -s.normal(t), -area});
         }
-        for (label z = 0; z < label(nZones_); ++z)
-            if (!area[z].isZero(0)) parts_.push_back({index, z, area[z]});
     }
 }
 
-List<scalar> wettedArea::sweptRate(const wallSet& walls) const
+sweptRates wettedArea::rates(const wallSet& walls, const particleCloud& cloud) const
 {
-    List<scalar> rate(nZones_, 0);
+    sweptRates r;
+    r.net.assign(cloud.zones.size(), 0), r.gross = r.net;
+    const auto add = [&](label zone, scalar rate) {
+        r.net[zone] += rate, r.gross[zone] += std::abs(rate);
+    };
+    const auto motion = [&](label w) -> vector {
+        return walls.walls()[w].velocity - walls.walls()[w].motion.slide();
+    };
+    for (const label index : planes_)
+    {
+        const wall& w = walls.walls()[index];
+        const scalar across = motion(index).dot(w.normal);
+        const label zone = across == 0 ? -1 : zoneBefore(w, cloud);
+        const scalar area = walls.planeArea(w).norm();
+        if (zone >= 0)
+            add(zone, area > 0 ? -across * area : std::numeric_limits<scalar>::quiet_NaN());
+    }
+    if (parts_.empty()) return r;
+
+    const scalar dx = cloud.dx;
+    boundBox near;
+    for (const part& p : parts_) near.add(p.centre + walls.walls()[p.wall].offset);
+    pointGrid fluid(sight * dx);
+    List<label> index;
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (const vector x = cloud.x[i].xyz(); near.distSqr(x) < std::pow((ahead + sight) * dx, 2))
+            fluid.add(x), index.push_back(i);
     for (const part& p : parts_)
     {
-        const wall& w = walls.walls()[p.wall];
-        const vector motion = w.velocity - w.motion.slide();
-        const vector area = w.plane ? walls.planeArea(w) : p.area;
-        rate[p.zone] -=
-            w.plane && area.isZero(0) ? std::numeric_limits<scalar>::quiet_NaN() : motion.dot(area);
+        const scalar rate = -motion(p.wall).dot(p.area);
+        if (rate == 0) continue;
+        const vector at = p.centre + walls.walls()[p.wall].offset - ahead * dx * p.normal;
+        if (const label k = fluid.nearestIndex(at, sight * dx); k >= 0)
+            add(cloud.zone[index[k]], rate);
     }
-    return rate;
+    return r;
 }
 
 }  // namespace ispf

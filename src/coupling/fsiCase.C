@@ -132,12 +132,22 @@ void fsiCase::readStructure()
     structure = structureModel::New(properties, ref);
 }
 
+// Neighbours in memory are neighbours in space, near enough for ten steps.  Counted with the state, so that
+// a run continued from it keeps the order
+void fsiCase::sortParticles()
+{
+    constexpr scalar interval = 10;
+    List<scalar>& since = cloud.history["stepsSinceSort"];
+    if (since.empty() || ++since[0] >= interval) cloud.sortFluid(kernel->support()), since = {0};
+    cloud.clearGhosts();
+}
+
 void fsiCase::updateNeighbours(scalar t0, scalar t1)
 {
     walls->setStep(t0, t1);
     List<vector> weight;
     for (const vector& a : bodyForce) weight.push_back(rho * a);
-    cloud.sortFluid(kernel->support());
+    sortParticles();
     walls->setFlags(cloud, weight);
     walls->updateGhosts(cloud);
     list.build(cloud, *kernel, walls->visible(cloud));

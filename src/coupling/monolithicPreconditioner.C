@@ -99,7 +99,9 @@ void monolithicPreconditioner::momentum(const List<scalar>& r, List<vec4>& u) co
     const label n = cloud.n(), nSolid = cloud.nSolid();
     const List<scalar>& A = system_.diagonal();
     u.resize(cloud.nAll());
-    for (label i = 0; i < n; ++i) u[i].s = simd4{r[4 * i], r[4 * i + 1], r[4 * i + 2], 0};
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i) u[i].s = simd4{r[4 * i], r[4 * i + 1], r[4 * i + 2], 0};
+    });
     if (system_.tangent()) solid_.solve(A, cloud, u);
 
     cloud.fillGhosts(u, true);
@@ -121,29 +123,35 @@ void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) con
     cloud.fillGhosts(u_, true);
     system_.rows().divergence(u_, div_);
     b_.resize(n), s_.resize(n);
-    for (label i = 0; i < n; ++i)
-    {
-        div_[i] -= r[4 * i + 3] / cloud.dx;
-        b_[i] = cloud.pFixed[i] ? 0 : -div_[i];
-    }
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            div_[i] -= r[4 * i + 3] / cloud.dx;
+            b_[i] = cloud.pFixed[i] ? 0 : -div_[i];
+        }
+    });
     multigrid_->apply(b_, s_);
 
     phi_.resize(cloud.nAll());
-    for (label i = 0; i < n; ++i)
-    {
-        const scalar share = cloud.isFluid(i) ? 1 : solidShare;
-        phi_[i].s =
-            simd4{0, 0, 0, cloud.pFixed[i] ? r[4 * i + 3] : share * s_[i] - bulk_[i] * div_[i]};
-    }
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            const scalar share = cloud.isFluid(i) ? 1 : solidShare;
+            const scalar p = share * s_[i] - bulk_[i] * div_[i];
+            phi_[i].s = simd4{0, 0, 0, cloud.pFixed[i] ? r[4 * i + 3] : p};
+        }
+    });
     cloud.fillGhosts(phi_, true);
     system_.rows().pressureGradient(phi_, work_);
     z.resize(4 * n);
-    for (label i = 0; i < n; ++i)
-    {
-        const scalar tau = cloud.uFixed[i] ? 0 : system_.tau()[i];
-        for (int a = 0; a < 3; ++a) z[4 * i + a] = u_[i][a] - tau * work_[i][a];
-        z[4 * i + 3] = phi_[i][3];
-    }
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            const scalar tau = cloud.uFixed[i] ? 0 : system_.tau()[i];
+            for (int a = 0; a < 3; ++a) z[4 * i + a] = u_[i][a] - tau * work_[i][a];
+            z[4 * i + 3] = phi_[i][3];
+        }
+    });
 }
 
 }  // namespace ispf

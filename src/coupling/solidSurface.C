@@ -98,6 +98,19 @@ private:
     scalar beyond_[nDepths + 1];
 };
 
+// 2 sum g.n x_ij.n over the half of the kernel on the side of n: 1 but for the particles' arrangement.  The
+// other half may end in a void
+scalar momentAhead(const particleCloud& cloud, const neighbourList& list, label i, const vector& n)
+{
+    scalar sum = 0;
+    for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
+    {
+        const scalar d = (cloud.x[list.index[k]].xyz() - cloud.x[i].xyz()).dot(n);
+        if (d > 0) sum -= 2 * list.F[k] * d * d;
+    }
+    return sum;
+}
+
 // The two fluid zones that weigh most about solid particle i: V sum grad W [m^nDims-1] and V sum W of each
 struct sideSums
 {
@@ -111,12 +124,6 @@ struct sideSums
         const scalar V = cloud.volume(), least = 1e-3 * V / cloud.dx;  // below it is out of sight
         List<vector> areas(cloud.zones.size(), vector::Zero());
         List<scalar> fractions(cloud.zones.size(), 0);
-        tensor moment = tensor::Zero();
-        for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
-        {
-            const vector xij = cloud.x[i].xyz() - cloud.x[list.index[k]].xyz();
-            moment -= list.F[k] * xij * xij.transpose();
-        }
         for (std::int64_t k = list.mid[i]; k < list.start[i + 1]; ++k)
         {
             const label j = list.index[k];
@@ -134,7 +141,7 @@ struct sideSums
             if (most->norm() < least) break;
             zone[s] = label(most - areas.begin());
             const vector n = most->normalized();
-            area[s] = *most / std::clamp(n.dot(moment * n), 0.9, 1.1);
+            area[s] = *most / std::clamp(momentAhead(cloud, list, i, n), 0.9, 1.1);
             fraction[s] = fractions[zone[s]];
             most->setZero();
         }
@@ -161,7 +168,7 @@ void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
             for (const int s : {0, 1})
                 if (const vector& a = sides[i].area[s]; sides[i].zone[s] == z)
                     normal[i] = vec4::from(a.normalized(), a.norm());
-        cloud.fillGhosts(normal, true);
+        cloud.fillGradientGhosts(normal);
         for (label i = 0; i < cloud.nSolid(); ++i)
             for (const int s : {0, 1})
             {
@@ -181,7 +188,7 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
                          const smoothingKernel& kernel, const List<tensor>& cofactor)
 {
     cloud_ = &cloud, list_ = &list;
-    if (feet_[0].start.empty()) findFeet(cloud);
+    if (feet_[0].start.empty()) findFeet(cloud, kernel.support());
     const label nSolid = cloud.nSolid();
     start_.assign(nSolid + 1, 0);
     for (label i = 0; i < nSolid; ++i) start_[i + 1] = start_[i] + list.start[i + 1] - list.mid[i];
@@ -195,10 +202,10 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
 }
 
 // The feet do not move within the solid: found once, from the rest state
-void solidSurface::findFeet(const particleCloud& cloud)
+void solidSurface::findFeet(const particleCloud& cloud, scalar support)
 {
     const List<vec4>& x0 = cloud.vectors.at("x0");
-    const scalar reach = 3 * cloud.dx;
+    const scalar reach = std::max(3 * cloud.dx, support);
     pointGrid solids(reach);
     for (label j = 0; j < cloud.nSolid(); ++j) solids.add(x0[j].xyz());
     for (const int s : {0, 1})
@@ -218,6 +225,7 @@ void solidSurface::findFeet(const particleCloud& cloud)
                     std::sort(near[i].begin(), near[i].end());
                     for (const label j : near[i]) r.push_back((solids[j] - foot) / reach);
                     weight[i] = followWeights(r);
+                    if (weight[i].empty()) near[i] = {i}, weight[i] = {1};
                 }
             },
             16);
@@ -253,9 +261,10 @@ scalar solidSurface::flux(const List<vec4>& u, const List<char>& zones) const
 scalar solidSurface::area(const List<char>& zones) const
 {
     scalar sum = 0;
-    for (const int s : {0, 1})
-        for (const sided& p : part_[s])
-            if (p.side >= 0 && zones[p.side]) sum += p.S.norm();
+    for (label i = 0; i < cloud_->nSolid(); ++i)
+        for (const int s : {0, 1})
+            if (const sided& p = part_[s][i]; p.side >= 0 && zones[p.side] && !cloud_->uFixed[i])
+                sum += p.S.norm();
     return sum;
 }
 

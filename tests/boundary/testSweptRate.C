@@ -27,7 +27,7 @@ struct rates
     List<scalar> at(scalar t0, scalar t1) const
     {
         walls->setStep(t0, t1);
-        return walls->sweptRate(cloud);
+        return walls->swept(cloud).net;
     }
 
 private:
