@@ -18,6 +18,7 @@ constexpr scalar balanced = 0.3;
 constexpr scalar borderShare = 0.2;   // of a particle's neighbours
 constexpr label strays = 5;           // particles
 constexpr scalar largestShare = 0.2;  // of the fluxes: 0.01 is usual
+constexpr scalar facetShare = 0.05;   // by which surfaces that move along may differ
 
 }  // namespace
 
@@ -138,8 +139,8 @@ bool enclosedFluid::loadsItself(const monolithicRows& system, scalar area) const
 
 void enclosedFluid::checkPushed(const body& b) const
 {
-    // where walls move on one side and give way on the other the two differ by their facets
-    if (!(std::abs(b.pushed) > 0.05 * b.gross)) return;
+    // walls may push on one side and give way on another
+    if (!(std::abs(b.pushed) > facetShare * b.gross)) return;
     throw fatalError("Time " + c_.time.timeName() + " s: walls push " + str(b.pushed) +
                      (c_.cloud.nDims == 2 ? " m^2/s" : " m^3/s") + " into zone " +
                      c_.cloud.zones[b.zones.front()].name +
@@ -233,17 +234,17 @@ void enclosedFluid::state::write(particleCloud& cloud) const
     to.push_back(largest), to.push_back(booked);
 }
 
-void enclosedFluid::removeMean(const std::function<bool(label)>& counts, label n,
-                               List<scalar>& rows) const
+// Of the n particles that count(i) is true for
+template <class Counts>
+void enclosedFluid::removeMean(Counts&& counts, label n, List<scalar>& rows) const
 {
-    const scalar mean = parallelSum(c_.cloud.n(),
-                                    [&](label begin, label end) {
-                                        scalar sum = 0;
-                                        for (label i = begin; i < end; ++i)
-                                            if (counts(i)) sum += rows[4 * i + 3];
-                                        return sum;
-                                    }) /
-                        n;
+    const auto sumRange = [&](label begin, label end) {
+        scalar sum = 0;
+        for (label i = begin; i < end; ++i)
+            if (counts(i)) sum += rows[4 * i + 3];
+        return sum;
+    };
+    const scalar mean = parallelSum(c_.cloud.n(), sumRange) / n;
     parallelFor(c_.cloud.n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
             if (counts(i)) rows[4 * i + 3] -= mean;
@@ -261,9 +262,8 @@ void enclosedFluid::balance(List<scalar>& rows) const
         removeMean([&](label i) { return bodyOf(i) == b; }, bodies_[b].n, rows);
         others -= bodies_[b].n;
     }
-    if (allFree_)
-        removeMean([&](label i) { return bodyOf(i) < 0 || !bodies_[bodyOf(i)].free; }, others,
-                   rows);
+    const auto ofNone = [&](label i) { return bodyOf(i) < 0 || !bodies_[bodyOf(i)].free; };
+    if (allFree_) removeMean(ofNone, others, rows);
 }
 
 }  // namespace ispf
