@@ -56,15 +56,20 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
 {
     if (openIndex.empty()) return;
     const siteFile sites(caseFolder + "/constant/openSites.hdf");
-    const auto allowed = [&](const vector& x, scalar distance) {
-        return group.beyond(x) <= -distance && walls.clear(x, distance);
-    };
     for (const label index : openIndex)
     {
         const word& name = balance[index].name;
-        const dictionary& dict = patches.subDict(name);
-        openFaces.emplace_back(name, dict, caseFolder, group, cloud);
-        openFaces.back().setSites(sites.positions(name, dict.where("type")), cloud, allowed);
+        openFaces.emplace_back(name, patches.subDict(name), caseFolder, group, cloud);
+    }
+    const auto allowed = [&](const vector& x, scalar distance) {
+        for (const openFace& face : openFaces)
+            if (face.beyondStrip(x)) return false;
+        return group.beyond(x) <= -distance && walls.clear(x, distance);
+    };
+    for (openFace& face : openFaces)
+    {
+        const fileLocation where = patches.subDict(face.name()).where("type");
+        face.setSites(sites.positions(face.name(), where), cloud, allowed);
     }
 }
 
@@ -153,10 +158,13 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
         }
     }
     c.putBack(cloud);
+    const auto movingWall = [&](const vector& x, scalar distance) {
+        return c.walls.movingWithin(x, distance);
+    };
     for (size_t k = 0; k < c.openFaces.size(); ++k)
     {
         patchBalance& b = c.balance[c.openIndex[k]];
-        const openFace::change change = c.openFaces[k].exchange(cloud);
+        const openFace::change change = c.openFaces[k].exchange(cloud, movingWall);
         b.created += change.created, b.deleted += change.deleted;
     }
     // rounding errors of surfaces would grow: nothing else keeps a flat case flat

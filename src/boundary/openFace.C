@@ -20,10 +20,19 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
       p_(Function1::New("p", dict, caseFolder)),
       spotGrid_(1.5 * cloud.dx)
 {
-    const scalar reach = depth_ + dx_;
+    const scalar near = depth_ + dx_, far = std::max(near, openLayer::reach * dx_);
     if (dict.chooseOrDefault("surface", {"triSurface", "plane"}, "triSurface") == "plane")
-        surface_ = patchSurface::plane(dict.get<vector>("point"), nonZero(dict, "normal"), reach);
-    else surface_ = patchSurface::triangles(readPatch(caseFolder, name, dict), group, reach);
+    {
+        const vector point = dict.get<vector>("point"), normal = nonZero(dict, "normal");
+        surface_ = patchSurface::plane(point, normal, near);
+        deep_ = patchSurface::plane(point, normal, far);
+    }
+    else
+    {
+        const triSurface mesh = readPatch(caseFolder, name, dict);
+        surface_ = patchSurface::triangles(mesh, group, near);
+        deep_ = patchSurface::triangles(mesh, group, far);
+    }
 }
 
 scalar openFace::weight(scalar q)
@@ -60,12 +69,14 @@ void openFace::setFlags(particleCloud& cloud, const List<vector>& weight) const
     });
 }
 
-// The means of both sides are made equal, over the region in which particles are counted; what differs
-// from the mean, a vortex or a layer at a wall, is left to the strip's own motion
+// Place by place the means of both sides are made equal; what differs from the mean within that reach is
+// left to the strip's own motion.  A wider mean would let the flow along the surface run into a wall or
+// away from it: nothing in the strip holds it back.
 void openFace::followInside(particleCloud& cloud) const
 {
     findFeet(cloud);
-    pointGrid all(region_);
+    const scalar reach = 1.5 * dx_;
+    pointGrid all(reach);
     List<label> index;
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
         if (const surfaceFoot& f = known_[i].foot; f.found && std::abs(f.depth) < depth_)
@@ -79,9 +90,9 @@ void openFace::followInside(particleCloud& cloud) const
                 if (known_[index[m]].foot.depth <= 0) continue;
                 vector sum[2] = {vector::Zero(), vector::Zero()};
                 scalar weights[2] = {0, 0};
-                all.within(all[m], region_, [&](label k, scalar r) {
+                all.within(all[m], reach, [&](label k, scalar r) {
                     const bool inside = known_[index[k]].foot.depth <= 0;
-                    const scalar w = weight(r / region_);
+                    const scalar w = weight(r / reach);
                     sum[inside] += w * cloud.Up[index[k]].xyz(), weights[inside] += w;
                 });
                 if (weights[1] > 0) change[m] = sum[1] / weights[1] - sum[0] / weights[0];
@@ -92,10 +103,16 @@ void openFace::followInside(particleCloud& cloud) const
         cloud.Up[index[m]].setXyz(cloud.Up[index[m]].xyz() + change[m]);
 }
 
+bool openFace::beyondStrip(const vector& x) const
+{
+    const surfaceFoot f = surface_->find(x);
+    return f.found && f.depth > depth_;
+}
+
 bool openFace::near(label i) const
 {
     const surfaceFoot& f = known_[i].foot;
-    return f.found && f.depth > -1.3 * dx_;
+    return f.found && f.depth > -0.6 * dx_;
 }
 
 }  // namespace ispf

@@ -2,6 +2,7 @@
 #include "openFace.H"
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
 #include <tuple>
 
@@ -21,14 +22,19 @@ constexpr scalar widest = 1.4;  // [dx] a hole of this radius is filled even if 
 struct openFace::census
 {
     const particleCloud& cloud;
-    pointGrid feet;       // of the fluid in the strip
+    pointGrid feet;  // of the fluid in the strip
+    openLayer::deficit before;
     pointGrid particles;  // all, from 1.5 dx before the face
     List<label> index;    // of the particles in the cloud
     pointGrid entered;    // feet of those that came in through the surface in this step
     List<scalar> beyond;  // how far they have come
 
-    census(const particleCloud& c, scalar region)
-        : cloud(c), feet(region), particles(1.5 * c.dx), entered(region)
+    census(const particleCloud& c, const openLayer& layer, scalar region)
+        : cloud(c),
+          feet(region),
+          before(layer.missing(c, region)),
+          particles(1.5 * c.dx),
+          entered(region)
     {
     }
 
@@ -63,7 +69,7 @@ label openFace::removeBeyond(particleCloud& cloud) const
 
 openFace::census openFace::count(const particleCloud& cloud) const
 {
-    census c(cloud, region_);
+    census c(cloud, layer_, region_);
     for (label i = 0; i < cloud.n(); ++i)
     {
         const surfaceFoot& f = known_[i].foot;
@@ -78,13 +84,20 @@ openFace::census openFace::count(const particleCloud& cloud) const
 
 // Spots whose nearest particle is about a spacing away come first: new particles then close up like
 // a lattice, where the largest holes first would leave gaps too narrow to fill
-List<label> openFace::choose(const census& c) const
+List<label> openFace::choose(const census& c, const place& movingWall) const
 {
     using candidate = std::tuple<scalar, label, scalar>;  // misfit, spot, its hole at that time
     std::priority_queue<candidate, List<candidate>, std::greater<>> queue;
     const auto without = [&](const pointGrid& feet, const vector& at, scalar full, scalar radius) {
         feet.within(at, radius, [&](label, scalar r) { full -= weight(r / radius); });
         return full;
+    };
+    // what lacks in the layer lacks here in the proportion of the radii: counted within the smaller one it
+    // would be mostly chance
+    const scalar counted = std::hypot(region_, openLayer::depth * dx_);
+    const scalar hereOfRegion = std::pow(near_ / region_, c.cloud.nDims - 1);
+    const auto before = [&](const vector& at) {
+        return movingWall(at, counted) ? 0 : c.before.sum(at, region_, weight);
     };
     // a spot is of use if there is room, and particles are missing or the hole may become a wide one
     const label n = label(spots_.size());
@@ -97,9 +110,11 @@ List<label> openFace::choose(const census& c) const
                 const spot& at = spots_[k];
                 hole[k] = c.particles.nearest(at.x, 1.5 * dx_);
                 if (hole[k] < closest * dx_) continue;
-                missingNear[k] = without(c.feet, at.foot, at.fullNear, near_);
+                const scalar inLayer = before(at.foot);
+                missingNear[k] =
+                    without(c.feet, at.foot, at.fullNear, near_) + hereOfRegion * inLayer;
                 if (missingNear[k] < missingHere) continue;
-                missingRegion[k] = without(c.feet, at.foot, at.fullRegion, region_);
+                missingRegion[k] = without(c.feet, at.foot, at.fullRegion, region_) + inLayer;
             }
         },
         256);
@@ -168,12 +183,12 @@ void openFace::insert(particleCloud& cloud, const census& c, const List<label>& 
     }
 }
 
-openFace::change openFace::exchange(particleCloud& cloud) const
+openFace::change openFace::exchange(particleCloud& cloud, const place& movingWall) const
 {
     change c;
     c.deleted = removeBeyond(cloud);
     const census present = count(cloud);
-    const List<label> chosen = choose(present);
+    const List<label> chosen = choose(present, movingWall);
     if (!chosen.empty()) insert(cloud, present, chosen);
     c.created = label(chosen.size());
     return c;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cellSamples.H"
 #include "openFace.H"
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace ispf
 {
@@ -11,41 +11,12 @@ namespace ispf
 namespace
 {
 
-constexpr int perAxis = 3;  // sample points of a cell, to the power of nDims
-
 // Two unit vectors across n; in two dimensions one in the plane
 List<vector> tangents(const vector& n, int nDims)
 {
     if (nDims == 2) return {vector(-n[1], n[0], 0).normalized()};
     const vector across = n.unitOrthogonal();
     return {across, n.cross(across)};
-}
-
-// Points that fill the cells within 1.5 dx of a site.  Quasi-random inside a cell (Roberts' additive
-// sequence): a regular raster would count the layers of an oblique strip, not its volume
-List<vector> samplesAround(const List<vector>& sites, scalar dx, int nDims)
-{
-    std::set<std::array<int, 3>> cells;
-    for (const vector& x : sites)
-        for (int i = -2; i <= 2; ++i)
-            for (int j = -2; j <= 2; ++j)
-                for (int k = nDims == 3 ? -2 : 0; k <= (nDims == 3 ? 2 : 0); ++k)
-                    cells.insert({int(std::floor(x[0] / dx)) + i, int(std::floor(x[1] / dx)) + j,
-                                  nDims == 3 ? int(std::floor(x[2] / dx)) + k : 0});
-    const vector step = nDims == 3
-                            ? vector(0.8191725133961645, 0.6710436067037893, 0.5497004779019703)
-                            : vector(0.7548776662466927, 0.5698402909980532, 0);
-    const int perCell = nDims == 3 ? perAxis * perAxis * perAxis : perAxis * perAxis;
-    List<vector> points;
-    vector inCell(0.5, 0.5, nDims == 3 ? 0.5 : 0);
-    for (const auto& c : cells)
-        for (int k = 0; k < perCell; ++k)
-        {
-            inCell += step;
-            for (int d = 0; d < 3; ++d) inCell[d] -= std::floor(inCell[d]);
-            points.push_back(dx * (vector(c[0], c[1], c[2]) + inCell));
-        }
-    return points;
 }
 
 }  // namespace
@@ -103,7 +74,9 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
                              " in constant/openSites.hdf. Its normals must point out of the fluid",
                          where_);
     const pointGrid full = sampleFeet(kept, cloud.nDims, allowed);
-    perSample_ = std::pow(1.0 / perAxis, cloud.nDims);
+    layer_ = openLayer(*deep_, kept, cloud, allowed);
+    deep_.reset();
+    perSample_ = 1.0 / samplesPerCell(cloud.nDims);
 
     pointGrid fluid(2 * dx_), taken(dx_);
     for (label i = cloud.nSolid(); i < cloud.n(); ++i) fluid.add(cloud.x[i].xyz());

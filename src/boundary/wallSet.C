@@ -51,6 +51,8 @@ void wallSet::makeBodies(const word& caseFolder, const dictionary& patches, cons
     }
     if (!stillWalls.empty())
         bodies_.push_back({patchSurface::triangles(std::move(still), group, reach), stillWalls});
+    for (body& b : bodies_)
+        if (const triSurface* mesh = b.surface->mesh()) b.bounds = mesh->bounds();
 }
 
 // Which side particles are on tells normals that point the wrong way, and surfaces in millimetres.  Where
@@ -145,6 +147,20 @@ bool wallSet::clear(const vector& x, scalar distance) const
         if (f.found && f.depth > -distance) return false;
     }
     return true;
+}
+
+bool wallSet::movingWithin(const vector& x, scalar distance) const
+{
+    for (const body& b : bodies_)
+    {
+        const wall& w = b.carrier(*this);
+        if (!w.motion.moves()) continue;
+        const vector y = x - w.offset;
+        const scalar off =
+            w.plane ? std::abs((y - w.point).dot(w.normal)) : std::sqrt(b.bounds.distSqr(y));
+        if (off < distance) return true;
+    }
+    return false;
 }
 
 bool wallSet::inside(const vector& x) const
