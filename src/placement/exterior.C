@@ -63,6 +63,25 @@ bool exterior::findWall(const vector& x, exteriorPoint& wall) const
     return wall.type != exteriorPoint::kind::nothing;
 }
 
+label exterior::zoneOf(label patch, label triangle) const
+{
+    const triSurface& s = search_[patch].surface();
+    const word& name = s.patchNames[s.patch[triangle]];
+    label zone = 0;
+    while (geometry_.zones()[zone].name != name) ++zone;
+    return zone;
+}
+
+label exterior::zoneBefore(label openPatch, const vector& x) const
+{
+    const exteriorPoint q = footOn(openPatch, x, 2 * (wallThickness_ + stripWidth_));
+    if (q.type == exteriorPoint::kind::nothing)
+        throw fatalError("No point of patch " + geometry_.patches()[openPatch].name + " is near (" +
+                         str(x[0]) + " " + str(x[1]) + " " + str(x[2]) +
+                         "), where the packing has put a particle of its strip");
+    return zoneOf(openPatch, q.triangle);
+}
+
 bool exterior::findOpen(const vector& x, exteriorPoint& open) const
 {
     const scalar strip = stripWidth_ * (1 + 1e-6);
@@ -76,8 +95,7 @@ bool exterior::findOpen(const vector& x, exteriorPoint& open) const
         if (found && q.distance >= open.distance) continue;
         open = q;
         open.type = q.depth <= strip ? exteriorPoint::kind::strip : exteriorPoint::kind::filler;
-        const word& zone = search_[p].surface().patchNames[search_[p].surface().patch[q.triangle]];
-        for (open.zone = 0; geometry_.zones()[open.zone].name != zone;) ++open.zone;
+        open.zone = zoneOf(label(p), q.triangle);
     }
     return open.type != exteriorPoint::kind::nothing;
 }
@@ -87,8 +105,10 @@ exteriorPoint exterior::at(const vector& x) const
     exteriorPoint wall, open;
     const bool behindWall = findWall(x, wall);
     if (!findOpen(x, open)) return wall;
-    // Where wall and open face meet, both are equally far: the wall's plane decides
-    return behindWall && wall.distance <= open.distance * (1 + 1e-6) ? wall : open;
+    // Where wall and open face meet, both are equally far: the wall's plane decides.  A solid's free face
+    // leaves the strip its place.
+    const bool rigid = behindWall && wall.type == exteriorPoint::kind::rigid;
+    return rigid && wall.distance <= open.distance * (1 + 1e-6) ? wall : open;
 }
 
 boundBox exterior::bounds() const

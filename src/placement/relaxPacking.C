@@ -222,7 +222,7 @@ placedParticles finishPacking(const List<packedParticle>& particles, const zoneG
         }
         placed.x.push_back(p.x);
         placed.strip.push_back(p.where == place::strip ? p.owner : -1);
-        placed.zone.push_back(p.where == place::zone ? p.owner : outside.at(p.x).zone);
+        placed.zone.push_back(p.where == place::zone ? p.owner : outside.zoneBefore(p.owner, p.x));
     }
     sortByPhase(placed, geometry.zones());
     dropUnseenRigid(placed, geometry, support);
