@@ -74,13 +74,13 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
 }
 
 boundary::boundary(const word& caseFolder, const dictionary& patches, const particleCloud& cloud,
-                   scalar support)
+                   scalar support, scalar t0)
     : content_(std::make_unique<content>())
 {
     content& c = *content_;
     for (const word& name : patches.dictKeys()) c.addPatch(name, patches.subDict(name), caseFolder);
     c.group.close(cloud, support);
-    c.walls.read(caseFolder, patches, c.group, cloud, support);
+    c.walls.read(caseFolder, patches, c.group, cloud, support, t0);
     c.walls.setStep(0, 1);
     c.wetted.find(c.walls, c.group, cloud);
     c.visibility.find(c.walls, support);

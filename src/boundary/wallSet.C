@@ -9,7 +9,7 @@ namespace ispf
 {
 
 void wallSet::read(const word& caseFolder, const dictionary& patches, const imageGroup& group,
-                   const particleCloud& cloud, scalar support)
+                   const particleCloud& cloud, scalar support, scalar t0)
 {
     support_ = support, nDims_ = cloud.nDims;
     for (const wall& w : walls_)
@@ -19,7 +19,9 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
                                              w.name + " must not move along z");
     if (empty()) return;
     makeBodies(caseFolder, patches, group, support + cloud.dx);
+    for (wall& w : walls_) w.moveTo(t0);
     checkSides(patches, cloud);
+    for (wall& w : walls_) w.moveTo(0);
     readRigid(caseFolder, patches);
     // what lies beyond symmetry planes and cyclic sides comes again as an image
     for (wall& w : walls_)
@@ -55,8 +57,7 @@ void wallSet::makeBodies(const word& caseFolder, const dictionary& patches, cons
         if (const triSurface* mesh = b.surface->mesh()) b.bounds = mesh->bounds();
 }
 
-// Which side particles are on tells normals that point the wrong way, and surfaces in millimetres.  Where
-// a moving wall is now is not known yet.
+// Which side particles are on tells normals that point the wrong way, and surfaces in millimetres
 void wallSet::checkSides(const dictionary& patches, const particleCloud& cloud) const
 {
     List<label> before(walls_.size(), 0), behind(walls_.size(), 0);
@@ -72,7 +73,6 @@ void wallSet::checkSides(const dictionary& patches, const particleCloud& cloud) 
     for (size_t w = 0; w < walls_.size(); ++w)
     {
         const word& name = walls_[w].name;
-        if (walls_[w].motion.moves()) continue;
         if (behind[w] > before[w])
             patches.subDict(name).fail(
                 "type", "Patch " + name + ": " + std::to_string(behind[w]) +

@@ -33,7 +33,7 @@ fsiCase::fsiCase(Time& t) : time(t)
     readKernel();
     walls = std::make_unique<boundary>(caseFolder(),
                                        dictionary::fromFile(time.constantFile("boundary")), cloud,
-                                       kernel->support());
+                                       kernel->support(), time.value());
     restoreBalance(time, *walls);
     readStructure();
     coupling = solution.chooseOrDefault("coupling", {"projection", "monolithic"},

@@ -151,3 +151,17 @@ TEST_CASE("motions that cannot be")
                        "twoSided yes; }"),
                 "a plane has no end", 2);
 }
+
+// Where it stands at the time of the cloud tells on which side of it the particles are
+TEST_CASE("a moving wall behind its particles")
+{
+    cube c;
+    c.files.surface("base", bottom);
+    const word text = "base { type wall; representation mirror; motion { velocity (0 0 0.1); } }";
+    const auto at = [&](scalar t0) {
+        return boundary(c.files.path, dictionary::fromString(text), c.cloud, 0.26, t0);
+    };
+    CHECK(errorOutput([&] { at(1); }).empty());
+    CHECK_ERROR(at(9), "particles are behind the wall", 1);
+    CHECK(errorOutput([&] { at(60); }).find("no particle is within") != word::npos);
+}
