@@ -41,7 +41,8 @@ function kept(name, within, injected, note) {
 function madeGood(at) { return "\n          flux that the divergence misses, made good by the scheme: " percent(q[at ".defect"]) }
 END {
     print "\nTHE PAPER'S FINDINGS"
-    print "Dead centres are judged at stop " q["deadCentreInstant"] " s, the middle of the rest; a star: would do as well"
+    print "Dead centres are judged at stop " q["deadCentreInstant"] " s" \
+        (q["deadCentreInstant"] + 0 == 0 ? ", as the plunger does not rest" : ", the middle of the rest; a star: would do as well")
     if (finding(judged("TDC", "ringHeight"), "TDC: vortex ring centred 6 mm above the nozzle, within 1 mm"))
         verdict(near("TDC", "ringHeight", 6, 1), "height " dwell("TDC", "ringHeight", "mm", 6, 1))
     if (finding(judged("TDC", "peak"), "TDC: peak of 1.5 mm/s (within 20 %) towards the dome, nozzle mean nearly zero"))

@@ -60,7 +60,8 @@ END {
     if (ours["reached"] < ours["endTime"] - 1e-3)
         printf "THE RUN HAS REACHED %g s OF %g s ONLY\n", ours["reached"], ours["endTime"]
     section("result", "RESULTS")
-    print "Dead centres: at stop " ours["deadCentreInstant"] " s, the middle of the rest."
+    print "Dead centres: at stop " ours["deadCentreInstant"] " s" \
+        (ours["deadCentreInstant"] + 0 == 0 ? "." : ", the middle of the rest.")
     ledger()
     section("input", "INPUT, as the run had it")
     printf "\n%d more published numbers describe the measurement only.\n", measuring
