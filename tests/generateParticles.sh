@@ -118,6 +118,15 @@ refused "name with a blank" "cannot be a name"
 dict 'file "";'
 refused "no file name" "is not known" "water.file at line 1"
 
+# Zones that only touch do not overlap; a spacing that does not divide a box is told
+ring='shape annulus; point1 (0 0 0); point2 (0 0 0.02); innerRadius 4e-3; outerRadius 6e-3;'
+echo "dx 1e-3; placement lattice; zones { ring { phase solid; $ring } lumen { phase fluid; shape cylinder;
+    point1 (0 0 0); point2 (0 0 0.02); radius 4e-3; } }" > system/particleDict
+generateParticles > out 2>&1 || fail "ring and lumen: $(tail -n 5 out)"
+! grep -q overlap out || fail "ring and lumen: $(grep overlap out)"
+dict "shape box; min (0 0 0); max (1.04e-2 1.04e-2 1.04e-2);"
+generateParticles > out 2>&1 && grep -q "water miss its volume by -.* bodyFitted" out || fail "spacing and box: $(cat out)"
+
 # Zones that overlap: who takes how much of whom, and where
 shape "$box" "" "ice { phase fluid; shape box; min (0.008 0 0); max (0.012 0.01 0.01); }"
 generateParticles > out 2>&1 || fail "overlap: $(tail -n 5 out)"

@@ -31,24 +31,32 @@ plane planeOf(const facet& f)
     return {f[0], (f[1] - f[0]).cross(f[2] - f[0]).normalized()};
 }
 
-// The part of facet f in a plane: false if it does not reach it, or lies in it
+// Where facet f, as far as it is within the tolerance of plane p, meets it: the ends of a segment in both
+// planes.  A face that only touches p, meshed differently, is now above it and now below
 bool trace(const facet& f, const plane& p, scalar tolerance, std::array<vector, 2>& ends)
 {
-    scalar d[3];
-    for (int k = 0; k < 3; ++k)
-    {
-        d[k] = p(f[k]);
-        if (std::abs(d[k]) < tolerance) d[k] = 0;
-    }
+    const plane own = planeOf(f);
+    const vector along = own.normal.cross(p.normal).normalized();
+    // from p's side of f to the common line, within f's own plane
+    const vector across = along.cross(own.normal);
+    const scalar slope = across.dot(p.normal);
     int n = 0;
+    const auto reach = [&](const vector& x) {
+        const vector on = x - p(x) / slope * across;
+        if (n == 0) ends = {on, on};
+        else if ((on - ends[0]).dot(along) < 0) ends[0] = on;
+        else if ((on - ends[1]).dot(along) > 0) ends[1] = on;
+        ++n;
+    };
     for (int k = 0; k < 3; ++k)
     {
-        const int next = (k + 1) % 3;
-        if (d[k] == 0 && n < 2) ends[n++] = f[k];
-        if (d[k] * d[next] < 0 && n < 2)
-            ends[n++] = f[k] + d[k] / (d[k] - d[next]) * (f[next] - f[k]);
+        const vector &a = f[k], &b = f[(k + 1) % 3];
+        const scalar da = p(a), db = p(b);
+        if (std::abs(da) <= tolerance) reach(a);
+        for (const scalar level : {-tolerance, tolerance})
+            if ((da - level) * (db - level) < 0) reach(a + (level - da) / (db - da) * (b - a));
     }
-    return n == 2;
+    return n > 1;
 }
 
 // Length of a segment inside a facet of the same plane
@@ -108,13 +116,13 @@ public:
             if (low > box_.max[d] || high < box_.min[d]) return;
         }
         const plane p = planeOf(other);
-        std::array<vector, 2> ends;
+        std::array<vector, 2> ends = {vector::Zero(), vector::Zero()};
         if (std::abs(p.normal.dot(plane_.normal)) > parallel ||
-            !trace(other, plane_, 1e-3 * tolerance_, ends))
+            !trace(other, plane_, tolerance_, ends))
             return;
         List<facet> kept;
         for (const facet& piece : pieces_)
-            if (parts(p, piece, tolerance_) && lengthInside(ends, piece) > tolerance_)
+            if (parts(p, piece, tolerance_) && lengthInside(ends, piece) > 1e-3 * tolerance_)
                 split(piece, p, kept);
             else kept.push_back(piece);
         pieces_ = std::move(kept);

@@ -231,6 +231,26 @@ TEST_CASE("bodies set into others: covered parts of large faces belong to no zon
         }
 }
 
+TEST_CASE(
+    "a sleeve around part of a cylinder, turned in other steps: the rest of the cylinder is wall")
+{
+    const scalar dx = 1e-3, R = 4e-3, length = 2e-2;
+    for (const auto& [from, to, n] : {std::tuple(5e-3, 1.5e-2, 200), std::tuple(8e-3, 1.2e-2, 200),
+                                      std::tuple(0.0, 1e-2, 1000)})
+    {
+        CAPTURE(n);
+        const packedScene s(
+            {{"inside"}, {"sleeve", phaseType::solid}},
+            {body{0, revolved({{0, 0}, {R, 0}, {R, length}, {0, length}}, 144), 0},
+             body{1, revolved({{R, from}, {2 * R, from}, {2 * R, to}, {R, to}}, n), 0}},
+            {}, dx, false);
+        const scalar bare = 2 * M_PI * R * (length - (to - from)) + 2 * M_PI * R * R;
+        CHECK(s.geometry.patchSurface(0).area() / bare == doctest::Approx(1).epsilon(3e-3));
+        const scalar all = 2 * M_PI * R * (length + R);
+        CHECK(s.geometry.boundary(0).area() / all == doctest::Approx(1).epsilon(3e-3));
+    }
+}
+
 TEST_CASE("zones whose common face is meshed twice leave no gap between them")
 {
     // two half cylinders of an outline turned in 60 and 64 steps: slivers along the common face
