@@ -150,8 +150,9 @@ void enclosedFluid::checkPushed(const body& b) const
 
 bool enclosedFluid::inactive() const
 {
-    return allFree_ || std::none_of(bodies_.begin(), bodies_.end(),
-                                    [](const body& b) { return !b.free && b.known; });
+    return !makesGood_ || allFree_ ||
+           std::none_of(bodies_.begin(), bodies_.end(),
+                        [](const body& b) { return !b.free && b.known; });
 }
 
 void enclosedFluid::addDefect(List<scalar>& q)

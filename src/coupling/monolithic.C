@@ -8,6 +8,7 @@
 //         maxIter     150;
 //         theta       0.95;     // memory of the pressure stabiliser; fluid alone: 0, it moves on
 //         volumeFeedback 0.1;   // relaxes J - 1 of the solid, per step; booked by the volume ledger
+//         divergenceDefect yes; // the flux that the divergence misses is made good: enclosedFluid.H
 //         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
 //     }
 #include "couplingScheme.H"
@@ -45,6 +46,7 @@ public:
           maxIter_(dict_.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
           shifting_(c.solution.subOrEmptyDict("shifting"))
     {
+        system_.enclosed().makeGood(dict_.getOrDefault("divergenceDefect", true));
         if (!c.structure) return;
         K_ = c.structure->tangentPattern();
         volume_ = std::make_unique<volumeConstraint>(*c.structure);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/errorOf.H"
+#include "relative.H"
 #include "samplePlane.H"
 
 #include <sstream>
@@ -90,7 +91,7 @@ TEST_CASE("a slice holds the particles of its zones within half the thickness, w
     CHECK(rows(one.slice(quarter())).size() == 4 * 8);
     const auto four = rows(plane(across + slice + "images ((1 0 0) (0 1 0));").slice(quarter()));
     CHECK(four.size() == 4 * 4 * 8);
-    for (const auto& row : four) CHECK(std::abs(row[2]) == Approx(0.5e-3));
+    for (const auto& row : four) CHECK(std::abs(row[2]) == relative(0.5e-3));
 }
 
 TEST_CASE("planes that cannot be are refused")
