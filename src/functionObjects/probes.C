@@ -10,6 +10,7 @@
 #include "dataFile.H"
 #include "fieldSampler.H"
 #include "fileNames.H"
+#include <cmath>
 #include <fstream>
 
 namespace ispf
@@ -41,6 +42,7 @@ public:
     void write() override
     {
         sampler_.update(points_);
+        if (!files_.front().is_open()) tellUnreached();
         for (size_t f = 0; f < fields_.size(); ++f)
         {
             if (!files_[f].is_open()) open(f);
@@ -53,6 +55,15 @@ public:
     }
 
 private:
+    void tellUnreached() const
+    {
+        for (size_t k = 0; k < points_.size(); ++k)
+            if (std::isnan(sampler_.components(fields_.front(), k).front()))
+                warning("probes: no particle is within reach of probe " + std::to_string(k) +
+                        " at (" + str(points_[k][0]) + " " + str(points_[k][1]) + " " +
+                        str(points_[k][2]) + "); nan is written until one comes");
+    }
+
     size_t columnWidth(const particleField& f) const
     {
         return f.isVector() ? 3 * width + 2 : width;

@@ -130,8 +130,10 @@ void springLinks::setFitted(const dictionary& dict, const structureReference& re
               ", mean modulus " + str(reached, 4) + " of it, anisotropy " + str(anisotropy, 3);
     if (std::abs(reached - 1) > 0.12 || anisotropy > 1.3)
         warning(
-            "springNetwork: these links are too few to give the modulus asked for everywhere: " +
-            summary + ". Take a larger radius or more layers");
+            "springNetwork: these links do not give the modulus asked for everywhere: " + summary +
+            ". Take radius 2.1 to 2.6, and if it is, more layers: shorter links are too few, "
+            "longer "
+            "ones end at the surfaces");
 }
 
 }  // namespace ispf
