@@ -40,7 +40,7 @@ faceSelector::faceSelector(const dictionary& dict)
     }
 }
 
-bool faceSelector::matches(const cadFace& face) const
+bool faceSelector::marks(const cadFace& face) const
 {
     if (hasColour_ && face.coloured)
     {
@@ -50,10 +50,12 @@ bool faceSelector::matches(const cadFace& face) const
         if (same) return true;
     }
     if (std::find(faces_.begin(), faces_.end(), face.tag) != faces_.end()) return true;
-    if (!group_.empty() && has(face.groups, group_)) return true;
-    if (!hasBox_) return false;
-    const boundBox b = face.surface.bounds();
-    return !b.empty() && (b.min.array() >= box_.min.array()).all() &&
+    return !group_.empty() && has(face.groups, group_);
+}
+
+bool faceSelector::holds(const boundBox& b) const
+{
+    return hasBox_ && !b.empty() && (b.min.array() >= box_.min.array()).all() &&
            (b.max.array() <= box_.max.array()).all();
 }
 

@@ -169,15 +169,27 @@ List<body> particleDict::cadBodies(const word& zone, const dictionary& dict)
     std::map<label, int> owners;  // of a face between two volumes: both
     for (const cadVolume& v : cad.volumes)
         for (const label f : v.faces) ++owners[f];
+    const auto ofFaces = [&](const cadVolume& v, auto&& wanted) {
+        return std::any_of(v.faces.begin(), v.faces.end(),
+                           [&](label f) { return owners[f] == 1 && wanted(cad.face(f)); });
+    };
+    const auto named = [&](const cadVolume& v) {
+        boundBox bounds;
+        for (const label f : v.faces) bounds.add(cad.face(f).surface.bounds());
+        return !selector.any() || selector.matches(v) || selector.holds(bounds) ||
+               ofFaces(v, [&](const cadFace& f) { return selector.marks(f); });
+    };
+    // a box names what lies in it; only where nothing does, what has a face in it: its neighbours have, too
+    const auto touched = [&](const cadVolume& v) {
+        return ofFaces(v, [&](const cadFace& f) { return selector.matches(f); });
+    };
     List<body> bodies;
-    for (const cadVolume& v : cad.volumes)
-    {
-        bool taken = !selector.any() || selector.matches(v);
-        for (const label f : v.faces)
-            taken = taken || (owners[f] == 1 && selector.matches(cad.face(f)));
-        if (taken) bodies.push_back(cadBody(zone, cad, v.faces, v.volume));
-    }
-    if (!bodies.empty()) return bodies;
+    const auto take = [&](auto&& wanted) {
+        for (const cadVolume& v : cad.volumes)
+            if (wanted(v)) bodies.push_back(cadBody(zone, cad, v.faces, v.volume));
+        return !bodies.empty();
+    };
+    if (take(named) || take(touched)) return bodies;
     List<label> faces;
     for (const cadFace& f : cad.faces)
         if (!selector.any() || selector.matches(f)) faces.push_back(f.tag);
