@@ -118,18 +118,6 @@ refused "name with a blank" "cannot be a name"
 dict 'file "";'
 refused "no file name" "is not known" "water.file at line 1"
 
-# A box names the bodies in it, not those that only have a face there
-cat > constant/two.geo <<'END'
-SetFactory("OpenCASCADE");
-Box(1) = {0, 0, 0, 6, 4, 4};
-Box(2) = {6, 0, 0, 4, 4, 4};
-END
-two='file "constant/two.geo"; unit mm;'
-echo "dx 1e-3; placement lattice; zones {
-    left  { phase fluid; $two box ((-1e-4 -1e-4 -1e-4) (6.1e-3 4.1e-3 4.1e-3)); }
-    right { phase fluid; $two box ((5.9e-3 -1e-4 -1e-4) (10.1e-3 4.1e-3 4.1e-3)); } }" > system/particleDict
-generateParticles > out 2>&1 && grep -q '^left .* 96  *+0.00' out && grep -q '^right .* 64  *+0.00' out || fail "boxes: $(tail -n 9 out)"
-
 # Zones that only touch do not overlap; a spacing that does not divide a box is told
 ring='shape annulus; point1 (0 0 0); point2 (0 0 0.02); innerRadius 4e-3; outerRadius 6e-3;'
 echo "dx 1e-3; placement lattice; zones { ring { phase solid; $ring } lumen { phase fluid; shape cylinder;
@@ -163,6 +151,10 @@ END
 geo='phase fluid; file "constant/two.geo"; unit mm;'
 dict 'file "constant/two.geo"; unit mm;'
 generateParticles > out 2>&1 && grep -q '^water .* 1500  *+0.00' out || fail "two touching volumes: $(cat out)"
+# a box names the bodies in it, not those that only have a face there
+echo "dx 1e-3; placement lattice; zones { water { $geo box ((-1 -1 -1) (0.0101 1 1)); } ice { $geo box ((0.0099 -1 -1) (1 1 1)); } }" > system/particleDict
+generateParticles > out 2>&1 && grep -q '^water .* 1000  *+0.00' out && grep -q '^ice .* 500  *+0.00' out || fail "boxes: $(tail -n 9 out)"
+dict 'file "constant/two.geo"; unit mm;'
 printf '%s\n' 'BooleanFragments { Volume{1}; Delete; }{ Volume{2}; Delete; }' 'Physical Volume("ice") = {2};' >> constant/two.geo
 generateParticles > out 2>&1 && grep -q '^water .* 1500  *+0.00' out || fail "two volumes with a common face: $(cat out)"
 for ice in "group ice;" "faces (11);" "box ((0.014 -1 -1) (1 1 1));"; do
