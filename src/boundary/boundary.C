@@ -99,15 +99,15 @@ void boundary::setStep(scalar t0, scalar t1)
     for (openFace& face : content_->openFaces) face.setTime(t1);
 }
 
-void boundary::setFlags(particleCloud& cloud, const List<vector>& weight) const
+void boundary::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bodyForce) const
 {
     std::fill(cloud.pFixed.begin(), cloud.pFixed.end(), 0);
-    for (const openFace& face : content_->openFaces) face.setFlags(cloud, weight);
+    for (const openFace& face : content_->openFaces) face.setFlags(cloud, rho, bodyForce);
 }
 
-void boundary::setOpenVelocity(particleCloud& cloud) const
+void boundary::setOpenVelocity(particleCloud& cloud, scalar dt) const
 {
-    for (const openFace& face : content_->openFaces) face.followInside(cloud);
+    for (const openFace& face : content_->openFaces) face.followInside(cloud, dt);
 }
 
 void boundary::updateGhosts(particleCloud& cloud) const

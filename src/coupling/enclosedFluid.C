@@ -173,7 +173,7 @@ void enclosedFluid::addDefect(List<scalar>& q)
         if (bodyOf(i) >= 0) q[i] += bodies_[bodyOf(i)].added / bodies_[bodyOf(i)].volume;
 }
 
-void enclosedFluid::account(particleCloud& cloud, scalar dt) const
+void enclosedFluid::account(particleCloud& cloud, scalar dt, const List<tensor>& cofactor) const
 {
     if (inactive())
     {
@@ -184,16 +184,16 @@ void enclosedFluid::account(particleCloud& cloud, scalar dt) const
     for (const body& b : bodies_)
     {
         s.booked += b.added * dt;
-        if (!b.free && b.known) expectNext(b, s);
+        if (!b.free && b.known) expectNext(b, cofactor, s);
         for (const label z : b.zones)
             if (!c_.source.empty()) s.expansion[z] *= 1 + c_.source[z] * dt;
     }
     s.write(cloud);
 }
 
-void enclosedFluid::expectNext(const body& b, state& s) const
+void enclosedFluid::expectNext(const body& b, const List<tensor>& cofactor, state& s) const
 {
-    const scalar gives = surface_->flux(c_.cloud.Up, b.isZone);
+    const scalar gives = surface_->flux(c_.cloud.Up, cofactor, b.isZone);
     scalar defect = b.source - (gives - b.pushed);
     // when all is at rest again what still flows inside may miss more than what then passes
     s.largest = std::max(s.largest, std::abs(gives) + b.gross + std::abs(b.source - b.added));

@@ -145,10 +145,8 @@ void fsiCase::sortParticles()
 void fsiCase::updateNeighbours(scalar t0, scalar t1)
 {
     walls->setStep(t0, t1);
-    List<vector> weight;
-    for (const vector& a : bodyForce) weight.push_back(rho * a);
     sortParticles();
-    walls->setFlags(cloud, weight);
+    walls->setFlags(cloud, rho, bodyForce);
     walls->updateGhosts(cloud);
     list.build(cloud, *kernel, walls->visible(cloud));
     correction.build(cloud, list);

@@ -8,7 +8,8 @@
 //         maxIter     150;
 //         theta       0.95;     // memory of the pressure stabiliser; fluid alone: 0, it moves on
 //         volumeFeedback 0.1;   // relaxes J - 1 of the solid, per step; booked by the volume ledger
-//         divergenceDefect yes; // the flux that the divergence misses is made good: enclosedFluid.H
+//         divergenceDefect yes; // what the divergence misses is made good a step later: of the fluid's flux,
+//                               // enclosedFluid.H; of the solid's volume as it turns, volumeConstraint.H
 //         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
 //     }
 #include "couplingScheme.H"
@@ -30,6 +31,8 @@ namespace
 
 // {u, v, w, p} of the start of the last step, carried by the particles for the guess of the next one
 const word oldField = "Up_0";
+// What the rate of J has missed in the last step
+const word missedField = "missedJ";
 
 class monolithic : public couplingScheme
 {
@@ -44,10 +47,12 @@ public:
           tolerance_(dict_.getInRangeOrDefault("tolerance", 1e-14, 0.1, 1e-4)),
           absTolerance_(dict_.getInRangeOrDefault("absTolerance", 0, 0.1, 1e-5)),
           maxIter_(dict_.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
+          makesGood_(dict_.getOrDefault("divergenceDefect", true)),
           shifting_(c.solution.subOrEmptyDict("shifting"))
     {
-        system_.enclosed().makeGood(dict_.getOrDefault("divergenceDefect", true));
+        system_.enclosed().makeGood(makesGood_);
         if (!c.structure) return;
+        c.cloud.scalars[missedField].resize(c.cloud.n(), 0);
         K_ = c.structure->tangentPattern();
         volume_ = std::make_unique<volumeConstraint>(*c.structure);
     }
@@ -59,8 +64,11 @@ private:
     void structureState();
     List<scalar> guess(scalar dt) const;
     scalar feedback(label i, scalar dt) const;
-    void bookFeedback(scalar dt);
+    scalar missed(label i, scalar dt) const;
+    template <class Source>
+    void book(const word& entry, scalar dt, Source&& source);
     void accept(const List<scalar>& z, scalar dt);
+    void account(scalar dt);
     word solve(scalar dt, List<scalar>& z);
     word tooFar(scalar dt, const List<scalar>& z) const;
     void advance(scalar t, scalar dt, int depth);
@@ -73,6 +81,7 @@ private:
     monolithicPreconditioner preconditioner_;
     scalar theta_, alpha_, tolerance_, absTolerance_;
     label maxIter_;
+    bool makesGood_;
     particleShifting shifting_;
 
     std::unique_ptr<volumeConstraint> volume_;
@@ -144,18 +153,23 @@ List<scalar> monolithic::guess(scalar dt) const
     return z;
 }
 
-// Volume source of solid particle i [1/s]
+// Volume sources of solid particle i [1/s]
 scalar monolithic::feedback(label i, scalar dt) const
 {
     return -alpha_ * (F_[i].determinant() - 1) / dt;
 }
 
-void monolithic::bookFeedback(scalar dt)
+scalar monolithic::missed(label i, scalar dt) const
 {
-    if (!c_.structure || alpha_ == 0) return;
+    return makesGood_ ? -c_.cloud.scalars.at(missedField)[i] / dt : 0;
+}
+
+template <class Source>
+void monolithic::book(const word& entry, scalar dt, Source&& source)
+{
     scalar rate = 0;
-    for (label i = 0; i < c_.cloud.nSolid(); ++i) rate += feedback(i, dt);
-    List<scalar>& booked = c_.cloud.history[solidFeedback];
+    for (label i = 0; i < c_.cloud.nSolid(); ++i) rate += source(i);
+    List<scalar>& booked = c_.cloud.history[entry];
     booked.resize(1, 0);
     booked[0] += rate * c_.cloud.volume() * dt;
 }
@@ -169,12 +183,28 @@ void monolithic::accept(const List<scalar>& z, scalar dt)
         cloud.Up[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], z[4 * i + 3]};
 }
 
+// Books what the step's sources have put in; what its rates have missed is for the next
+void monolithic::account(scalar dt)
+{
+    List<tensor> cofactor;
+    if (c_.structure)
+    {
+        book(solidFeedback, dt, [&](label i) { return feedback(i, dt); });
+        book(solidDefect, dt, [&](label i) { return missed(i, dt); });
+        volume_->meanCofactor(c_.cloud.Up, dt, cofactor);
+        List<scalar> dJ;
+        volume_->missed(c_.cloud.Up, dt, cofactor, dJ);
+        std::copy(dJ.begin(), dJ.end(), c_.cloud.scalars.at(missedField).begin());
+    }
+    system_.enclosed().account(c_.cloud, dt, cofactor);
+}
+
 // Solves for z = {u, v, w, p} of the end of the step; an empty text, or why it cannot be accepted
 word monolithic::solve(scalar dt, List<scalar>& z)
 {
     const particleCloud& cloud = c_.cloud;
     List<scalar> q(cloud.n(), 0), b;
-    for (label i = 0; i < cloud.nSolid(); ++i) q[i] = feedback(i, dt);
+    for (label i = 0; i < cloud.nSolid(); ++i) q[i] = feedback(i, dt) + missed(i, dt);
     for (label i = cloud.nSolid(); i < cloud.n() && !c_.source.empty(); ++i)
         q[i] = c_.source[cloud.zone[i]];
     if (c_.structure) system_.setup(dt, volume_.get(), &surface_, &K_);
@@ -243,11 +273,10 @@ void monolithic::advance(scalar t, scalar dt, int depth)
         return;
     }
     accept(z, dt);
-    system_.enclosed().account(cloud, dt);
-    bookFeedback(dt);
+    account(dt);
     system_.hydrostatic().giveBack(cloud);
 
-    c_.walls->setOpenVelocity(cloud);
+    c_.walls->setOpenVelocity(cloud, dt);
     // Shift first, with the neighbours at hand, then move: x^{n+1} = x^n + dt u^{n+1}
     shifting_.shift(cloud, c_.list, c_.correction, dt,
                     [&](label i) { return c_.walls->nearOpen(i); });

@@ -240,7 +240,18 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support)
     }
 }
 
-scalar solidSurface::flux(const List<vec4>& u, const List<char>& zones) const
+// On the surface: an inflated ring's layers are stretched the less the deeper they lie
+vector solidSurface::areaVector(int s, label i, const List<tensor>& cofactor) const
+{
+    const feet& f = feet_[s];
+    tensor there = tensor::Zero();
+    for (label k = f.start[i]; k < f.start[i + 1]; ++k)
+        there += f.weight[k] * cofactor[f.source[k]];
+    return there * cloud_->vectors.at(areaField[s])[i].xyz();
+}
+
+scalar solidSurface::flux(const List<vec4>& u, const List<tensor>& cofactor,
+                          const List<char>& zones) const
 {
     return parallelSum(cloud_->nSolid(), [&](label begin, label end) {
         scalar sum = 0;
@@ -252,7 +263,7 @@ scalar solidSurface::flux(const List<vec4>& u, const List<char>& zones) const
                 simd4 at = {};
                 for (label k = feet_[s].start[i]; k < feet_[s].start[i + 1]; ++k)
                     at += feet_[s].weight[k] * u[feet_[s].source[k]].s;
-                sum -= part_[s][i].S.dot(vector(at[0], at[1], at[2]));
+                sum -= areaVector(s, i, cofactor).dot(vector(at[0], at[1], at[2]));
             }
         return sum;
     });
@@ -278,12 +289,7 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
         sided& part = part_[s][i];
         part = {int(S0[3]) - 1, vector::Zero(), cloud.vectors.at(wayField[s])[i].xyz()};
         if (part.side < 0) continue;
-        // on the surface: an inflated ring's layers are stretched the less the deeper they lie
-        const feet& f = feet_[s];
-        tensor there = tensor::Zero();
-        for (label k = f.start[i]; k < f.start[i + 1]; ++k)
-            there += f.weight[k] * cofactor[f.source[k]];
-        part.S = there * S0.xyz();
+        part.S = areaVector(s, i, cofactor);
         scalar sum = 0;
         const label m = label(start_[i + 1] - start_[i]);
         scalar* w = weight_[s].data() + start_[i];

@@ -36,8 +36,8 @@ volumeLedger::volumeLedger(fsiCase& c) : c_(c)
     file_.open(folder + "/volumeLedger.dat");
     if (!file_) throw fatalError("Cannot write " + folder + "/volumeLedger.dat");
     file_ << "# Volumes of the whole body [m^" << c.cloud.nDims
-          << "] since the start; control, wallFeedback, defect: put in\n"
-          << "# Time\tswept\tcavity\topenNet\twall\tcontrol\twallFeedback\tdefect\n";
+          << "] since the start; control and what follows: put in\n"
+          << "# Time\tswept\tcavity\topenNet\twall\tcontrol\twallFeedback\tdefect\twallDefect\n";
 }
 
 scalar volumeLedger::swept() const
@@ -67,11 +67,6 @@ static scalar booked(const fsiCase& c, const word& entry)
 scalar volumeLedger::wallFeedback() const
 {
     return booked(c_, solidFeedback);
-}
-
-scalar volumeLedger::defect() const
-{
-    return booked(c_, divergenceDefect);
 }
 
 void volumeLedger::update(scalar dt)
@@ -105,7 +100,8 @@ void volumeLedger::writeLine()
     file_ << std::scientific << std::setprecision(6) << std::setw(14) << std::left
           << c_.time.timeName();
     const scalar wall = wallVolume() - wall0_, feedback = wallFeedback();
-    for (const scalar v : {swept(), cavityChange(), open, wall, controlled_, feedback, defect()})
+    for (const scalar v : {swept(), cavityChange(), open, wall, controlled_, feedback,
+                           booked(c_, divergenceDefect), booked(c_, solidDefect)})
         file_ << '\t' << v;
     file_ << std::endl;
     const auto inMm = [&](scalar v) {

@@ -5,14 +5,19 @@
 namespace ispf
 {
 
+static tensor cofactorOf(const tensor& F)
+{
+    return F.determinant() * F.inverse().transpose();
+}
+
 void volumeConstraint::setup(const List<tensor>& F)
 {
+    F_ = F;
     cofactor_.resize(F.size());
     parallelFor(
         label(F.size()),
         [&](label begin, label end) {
-            for (label i = begin; i < end; ++i)
-                cofactor_[i] = F[i].determinant() * F[i].inverse().transpose();
+            for (label i = begin; i < end; ++i) cofactor_[i] = cofactorOf(F[i]);
         },
         256);
 }
@@ -22,6 +27,27 @@ void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ) const
     gradient_.applyLinear(u, work_);
     dJ.resize(work_.size());
     for (size_t i = 0; i < work_.size(); ++i) dJ[i] = cofactor_[i].cwiseProduct(work_[i]).sum();
+}
+
+// F is linear and its cofactor at most quadratic in time, for which Simpson's rule is exact
+void volumeConstraint::meanCofactor(const List<vec4>& u, scalar dt, List<tensor>& mean) const
+{
+    gradient_.applyLinear(u, work_);
+    mean.resize(work_.size());
+    for (size_t i = 0; i < work_.size(); ++i)
+    {
+        const tensor half = 0.5 * dt * work_[i];
+        mean[i] = (cofactor_[i] + 4 * cofactorOf(F_[i] + half) + cofactorOf(F_[i] + 2 * half)) / 6;
+    }
+}
+
+void volumeConstraint::missed(const List<vec4>& u, scalar dt, const List<tensor>& mean,
+                              List<scalar>& dJ) const
+{
+    gradient_.applyLinear(u, work_);
+    dJ.resize(work_.size());
+    for (size_t i = 0; i < work_.size(); ++i)
+        dJ[i] = dt * (mean[i] - cofactor_[i]).cwiseProduct(work_[i]).sum();
 }
 
 void volumeConstraint::addStress(const List<vec4>& up, List<tensor>& P) const

@@ -73,7 +73,7 @@ outcome run(const reversal& r, int cycles, int stepsPerCycle)
     {
         const scalar t = step * dt;
         b.setStep(t, t + dt);
-        b.setFlags(cloud);
+        b.setFlags(cloud, 1000, {});
         cloud.sortFluid(2.6 * dx);
         for (label i = 0; i < cloud.n(); ++i)
         {

@@ -71,6 +71,31 @@ TEST_CASE("The rate of J is its derivative in the direction of the velocity")
     CHECK(error < 1e-6 * most);
 }
 
+TEST_CASE("What the rate of J misses over a step, from the cofactor's mean: exact")
+{
+    const deformed d;
+    const List<vec4> u = noise(d.ref.n());
+    const scalar dt = 0.1 * d.ref.dx;  // a tenth of a spacing
+    List<tensor> mean, F0, F1;
+    List<scalar> rate, missed;
+    d.volume.rate(u, rate);
+    d.volume.meanCofactor(u, dt, mean);
+    d.volume.missed(u, dt, mean, missed);
+    List<vec4> x = d.x;
+    for (size_t i = 0; i < x.size(); ++i) x[i].s += dt * simd4{u[i][0], u[i][1], u[i][2], 0};
+    d.model->deformationGradient(d.x, F0);
+    d.model->deformationGradient(x, F1);
+    scalar most = 0, error = 0;
+    for (size_t i = 0; i < rate.size(); ++i)
+    {
+        const scalar exact = F1[i].determinant() - F0[i].determinant();
+        most = std::max(most, std::abs(missed[i]));
+        error = std::max(error, std::abs(dt * rate[i] + missed[i] - exact));
+    }
+    CHECK(most > 1e-3);
+    CHECK(error < 1e-12);
+}
+
 TEST_CASE(
     "The constraint's pressure works with the rate of J; when uniform it moves and turns nothing")
 {
