@@ -39,6 +39,18 @@ cube
 dict "$stl"
 generateParticles > out 2>&1 && grep -q '^water .* 1000  *+0.00' out || fail "a cube: $(cat out)"
 
+# In 2D a zone is open where symmetry planes cut it: its area is none the less known
+plane() { echo "$1 { type symmetryPlane; point ($2 0); normal ($3 0); }"; }
+for planes in "$(plane a '0 0' '-1 0')" "$(plane a '0 0' '-1 0') $(plane b '0.01 0' '1 0')" \
+    "$(plane a '0 0' '-1 0') $(plane b '0.02 0.02' '0 1')" \
+    "$(plane a '0 0' '-1 0') $(plane b '0.01 0' '1 0') $(plane c '0 0.02' '0 1')"; do
+    echo "walls { type wall; } $planes" > constant/boundary
+    dict 'shape box; min (0 0 0); max (0.01 0.02 0);' 1e-3 'nDims 2;'
+    generateParticles > out 2>&1 && grep -q '^water  *0.0002  *200  *[+-]0.00' out || fail "2D, $planes: $(tail -n 8 out)"
+    rm -rf 0
+done
+echo "walls { type wall; }" > constant/boundary
+
 # Velocity and pressure at the start, by formulas
 dict "$stl U (\"10*x - y\" 2 \"sin(pi*z/0.02)\"); p \"dx*sqrt(x*x)\";"
 generateParticles > out 2>&1 || fail "initial fields: $(tail -n 5 out)"

@@ -12,7 +12,8 @@ namespace
 
 // How the fluid before the face accelerates along its normal [m/s^2], a field of the particles near it
 const word accelerationField = "openAcceleration";
-constexpr scalar layers = 3, around = 4;  // [dx] before the surface and along it, over which that is a mean
+constexpr scalar layers = 3,
+                 around = 4;  // [dx] before the surface and along it, over which that is a mean
 
 }  // namespace
 

@@ -25,6 +25,18 @@ bool isPrismEnd(const triSurface& s, label t)
 
 }  // namespace
 
+// What planes along the axes leave of a box
+static boundBox withinPlanes(boundBox box, const List<halfSpace>& planes)
+{
+    for (const halfSpace& plane : planes)
+        for (int a = 0; a < 3; ++a)
+        {
+            if (plane.normal[a] == 1) box.max[a] = std::min(box.max[a], plane.point[a]);
+            if (plane.normal[a] == -1) box.min[a] = std::max(box.min[a], plane.point[a]);
+        }
+    return box;
+}
+
 zoneGeometry::zoneGeometry(List<zoneInfo> zones, List<patchInfo> patches, List<body> bodies,
                            List<halfSpace> symmetryPlanes, const word& defaultPatch, scalar dx,
                            int nDims)
@@ -51,6 +63,11 @@ zoneGeometry::zoneGeometry(List<zoneInfo> zones, List<patchInfo> patches, List<b
                              "symmetry planes cut it away");
         bounds_.add(boundary_[z].bounds());
     }
+    // where planes on three sides leave hardly a face
+    for (const boundBox& body : bodyBounds_)
+        if (const boundBox box = withinPlanes(body, planes_);
+            (box.min.array() <= box.max.array()).all())
+            bounds_.add(box);
     if (nDims_ == 2) bounds_.min[2] = bounds_.max[2] = 0;
     checkPatchNames();
     gatherPatches();
@@ -227,6 +244,32 @@ void zoneGeometry::gatherPatches()
     freeSurface_.weld(1e-6 * dx_);
 }
 
+// Area of a zone's openings in a plane, 2D: a prism without ends is open there between its open edges and the
+// corners that the plane has with others within the zone
+scalar zoneGeometry::openingIn(const halfSpace& plane, label zone, scalar height) const
+{
+    const triSurface& s = boundary_[zone];
+    const scalar tolerance = 1e-5 * dx_;
+    const vector along = vector::UnitZ().cross(plane.normal);
+    scalar area = 0;
+    for (const auto& [a, b] : openHalfEdges(s))
+    {
+        const vector &p = s.nodes[a], &q = s.nodes[b];
+        if (std::abs(plane.distance(p)) <= tolerance && std::abs(plane.distance(q)) <= tolerance)
+            area -= (q[2] - p[2]) * along.dot(p);
+    }
+    for (const halfSpace& other : planes_)
+    {
+        const scalar slope = along.dot(other.normal);
+        if (std::abs(slope) < 1e-9) continue;
+        const vector corner = plane.point - other.distance(plane.point) / slope * along;
+        vector inside = corner - 1e-3 * dx_ * (plane.normal + other.normal);
+        inside[2] = s.bounds().centre()[2];
+        if (zoneAt(inside) == zone) area += (slope > 0 ? 1 : -1) * height * along.dot(corner);
+    }
+    return area;
+}
+
 void zoneGeometry::setVolumes()
 {
     for (size_t z = 0; z < zones_.size(); ++z)
@@ -234,12 +277,15 @@ void zoneGeometry::setVolumes()
         const triSurface& s = boundary_[z];
         if (nDims_ == 2)
         {
-            // Divergence theorem in the plane, over a prism of known height
+            // Divergence theorem in the plane, over a prism of known height that is open at the planes
             const boundBox box = s.bounds();
             scalar sum = 0;
             for (label t = 0; t < s.size(); ++t)
                 sum += s.areaVector(t).dot(s.corner(t, 0) - box.centre());
-            volume_.push_back(sum / (2 * (box.max[2] - box.min[2])));
+            const scalar height = box.max[2] - box.min[2];
+            for (const halfSpace& plane : planes_)
+                sum -= openingIn(plane, label(z), height) * plane.distance(box.centre());
+            volume_.push_back(sum / (2 * height));
             continue;
         }
         scalar true_ = 0, meshed = 0, cut = 0;
