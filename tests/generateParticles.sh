@@ -43,12 +43,24 @@ generateParticles > out 2>&1 && grep -q '^water .* 1000  *+0.00' out || fail "a 
 plane() { echo "$1 { type symmetryPlane; point ($2 0); normal ($3 0); }"; }
 for planes in "$(plane a '0 0' '-1 0')" "$(plane a '0 0' '-1 0') $(plane b '0.01 0' '1 0')" \
     "$(plane a '0 0' '-1 0') $(plane b '0.02 0.02' '0 1')" \
-    "$(plane a '0 0' '-1 0') $(plane b '0.01 0' '1 0') $(plane c '0 0.02' '0 1')"; do
-    echo "walls { type wall; } $planes" > constant/boundary
+    "$(plane a '0 0' '-1 0') $(plane b '0.01 0' '1 0') $(plane c '0 0.02' '0 1')" \
+    "$(plane a '0 0' '-1 0') $(plane b '0.01 0' '1 0') $(plane c '0 0.02' '0 1') $(plane d '0 0' '0 -1')"; do
+    case $planes in *d\ *) echo "$planes" ;; *) echo "walls { type wall; } $planes" ;; esac > constant/boundary
     dict 'shape box; min (0 0 0); max (0.01 0.02 0);' 1e-3 'nDims 2;'
     generateParticles > out 2>&1 && grep -q '^water  *0.0002  *200  *[+-]0.00' out || fail "2D, $planes: $(tail -n 8 out)"
     rm -rf 0
 done
+echo "walls { type wall; } $(plane a '0 0' '-1 0') $(plane b '0 0' '-1 0')" > constant/boundary
+refused "a plane twice" "planes are the same" "(-1 0 0)"
+echo "walls { type wall; } $(plane a '0.005 0' '-1 -1') $(plane b '0.005 0' '1 -1')" > constant/boundary
+generateParticles > out 2>&1 && grep -q 'Warning.*images.*apart' out || fail "a lattice on its image: $(tail -n 8 out)"
+rm -rf 0
+# in 3D
+echo "$(for p in '0 0 0:-1 0 0' '0.01 0 0:1 0 0' '0 0 0:0 -1 0' '0 0.01 0:0 1 0' '0 0 0:0 0 -1' '0 0 0.01:0 0 1'; do
+    echo "p${p//[: .-]/_} { type symmetryPlane; point (${p%:*}); normal (${p#*:}); }"; done)" > constant/boundary
+dict 'shape box; min (0 0 0); max (0.01 0.01 0.01);'
+generateParticles > out 2>&1 && grep -q '^water  *1e-06  *1000  *[+-]0.00' out || fail "planes on all sides: $(tail -n 8 out)"
+rm -rf 0
 echo "walls { type wall; }" > constant/boundary
 
 # Velocity and pressure at the start, by formulas

@@ -17,6 +17,8 @@ namespace ispf
 namespace
 {
 
+constexpr scalar tooClose = 0.4;  // [dx]
+
 // All particles, rigid ones and images: what a particle sees
 List<vector> everything(const zoneGeometry& geometry, const placedParticles& placed, scalar support)
 {
@@ -159,6 +161,11 @@ void reportPacking(const zoneGeometry& geometry, const placedParticles& placed, 
         out << std::setw(13) << str(q.minDistance, 3);
         if (q.layers > 0) out << std::setw(9) << str(q.layers, 2);
         out << "\n";
+        if (q.minDistance < tooClose)
+            warning("Particles of zone " + name +
+                    ", their images beyond symmetry planes included, are " + str(q.minDistance, 3) +
+                    " dx apart: a lattice fits planes along its axes at whole or half spacings "
+                    "only; choose placement bodyFitted");
         if (std::abs(q.volumeError) > 0.005)
             warning("The particles of zone " + name + " miss its volume by " +
                     percent(q.volumeError) +

@@ -48,6 +48,7 @@ zoneGeometry::zoneGeometry(List<zoneInfo> zones, List<patchInfo> patches, List<b
       dx_(dx),
       nDims_(nDims)
 {
+    checkPlanes();
     for (body& b : bodies_)
     {
         checkClosed(b);
@@ -57,7 +58,8 @@ zoneGeometry::zoneGeometry(List<zoneInfo> zones, List<patchInfo> patches, List<b
     classify();
     for (size_t z = 0; z < zones_.size(); ++z)
     {
-        if (boundary_[z].empty())
+        // planes on all sides leave a zone without a face
+        if (boundary_[z].empty() && !withinPlanesAlone(label(z)))
             throw fatalError("Zone " + zones_[z].name +
                              " is empty: no body belongs to it, or later bodies cover it, or the "
                              "symmetry planes cut it away");
@@ -244,6 +246,28 @@ void zoneGeometry::gatherPatches()
     freeSurface_.weld(1e-6 * dx_);
 }
 
+// Is the zone all that the planes leave of one of its bodies?
+bool zoneGeometry::withinPlanesAlone(label zone) const
+{
+    for (size_t k = 0; k < bodies_.size(); ++k)
+        if (bodies_[k].zone == zone &&
+            zoneAt(withinPlanes(bodyBounds_[k], planes_).centre()) == zone)
+            return true;
+    return false;
+}
+
+void zoneGeometry::checkPlanes() const
+{
+    for (size_t k = 0; k < planes_.size(); ++k)
+        for (size_t m = 0; m < k; ++m)
+            if ((planes_[k].normal - planes_[m].normal).norm() < 1e-9 &&
+                std::abs(planes_[k].distance(planes_[m].point)) < 1e-6 * dx_)
+                throw fatalError("Two symmetry planes are the same, with the normal (" +
+                                 str(planes_[k].normal[0]) + " " + str(planes_[k].normal[1]) + " " +
+                                 str(planes_[k].normal[2]) +
+                                 "): leave one away, it holds for all faces in it");
+}
+
 // Area of a zone's openings in a plane, 2D: a prism without ends is open there between its open edges and the
 // corners that the plane has with others within the zone
 scalar zoneGeometry::openingIn(const halfSpace& plane, label zone, scalar height) const
@@ -264,7 +288,7 @@ scalar zoneGeometry::openingIn(const halfSpace& plane, label zone, scalar height
         if (std::abs(slope) < 1e-9) continue;
         const vector corner = plane.point - other.distance(plane.point) / slope * along;
         vector inside = corner - 1e-3 * dx_ * (plane.normal + other.normal);
-        inside[2] = s.bounds().centre()[2];
+        inside[2] = bounds_.centre()[2];
         if (zoneAt(inside) == zone) area += (slope > 0 ? 1 : -1) * height * along.dot(corner);
     }
     return area;
@@ -278,11 +302,11 @@ void zoneGeometry::setVolumes()
         if (nDims_ == 2)
         {
             // Divergence theorem in the plane, over a prism of known height that is open at the planes
-            const boundBox box = s.bounds();
+            const boundBox box = s.empty() ? bounds_ : s.bounds();
             scalar sum = 0;
             for (label t = 0; t < s.size(); ++t)
                 sum += s.areaVector(t).dot(s.corner(t, 0) - box.centre());
-            const scalar height = box.max[2] - box.min[2];
+            const scalar height = s.empty() ? dx_ : box.max[2] - box.min[2];
             for (const halfSpace& plane : planes_)
                 sum -= openingIn(plane, label(z), height) * plane.distance(box.centre());
             volume_.push_back(sum / (2 * height));
@@ -305,7 +329,7 @@ void zoneGeometry::setVolumes()
         }
         // Facets lie inside a convex surface: scaled to the volume the CAD kernel knows
         const scalar bounded = closed.volume();
-        whole = std::abs(bounded - cut) < 1e-3 * cut;
+        whole = s.empty() || std::abs(bounded - cut) < 1e-3 * cut;
         volume_.push_back(whole ? cut * true_ / meshed : bounded);
     }
 }
