@@ -191,10 +191,9 @@ void monolithic::account(scalar dt)
     {
         book(solidFeedback, dt, [&](label i) { return feedback(i, dt); });
         book(solidDefect, dt, [&](label i) { return missed(i, dt); });
-        volume_->meanCofactor(c_.cloud.Up, dt, cofactor);
-        List<scalar> dJ;
-        volume_->missed(c_.cloud.Up, dt, cofactor, dJ);
-        std::copy(dJ.begin(), dJ.end(), c_.cloud.scalars.at(missedField).begin());
+        List<scalar> missed;
+        volume_->overStep(c_.cloud.Up, dt, cofactor, missed);
+        std::copy(missed.begin(), missed.end(), c_.cloud.scalars.at(missedField).begin());
     }
     system_.enclosed().account(c_.cloud, dt, cofactor);
 }

@@ -132,8 +132,7 @@ void springLinks::setFitted(const dictionary& dict, const structureReference& re
         warning(
             "springNetwork: these links do not give the modulus asked for everywhere: " + summary +
             ". Take radius 2.1 to 2.6, and if it is, more layers: shorter links are too few, "
-            "longer "
-            "ones end at the surfaces");
+            "longer ones end at the surfaces");
 }
 
 }  // namespace ispf

@@ -30,24 +30,24 @@ void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ) const
 }
 
 // F is linear and its cofactor at most quadratic in time, for which Simpson's rule is exact
-void volumeConstraint::meanCofactor(const List<vec4>& u, scalar dt, List<tensor>& mean) const
+void volumeConstraint::overStep(const List<vec4>& u, scalar dt, List<tensor>& mean,
+                                List<scalar>& missed) const
 {
     gradient_.applyLinear(u, work_);
-    mean.resize(work_.size());
-    for (size_t i = 0; i < work_.size(); ++i)
-    {
-        const tensor half = 0.5 * dt * work_[i];
-        mean[i] = (cofactor_[i] + 4 * cofactorOf(F_[i] + half) + cofactorOf(F_[i] + 2 * half)) / 6;
-    }
-}
-
-void volumeConstraint::missed(const List<vec4>& u, scalar dt, const List<tensor>& mean,
-                              List<scalar>& dJ) const
-{
-    gradient_.applyLinear(u, work_);
-    dJ.resize(work_.size());
-    for (size_t i = 0; i < work_.size(); ++i)
-        dJ[i] = dt * (mean[i] - cofactor_[i]).cwiseProduct(work_[i]).sum();
+    mean.resize(work_.size()), missed.resize(work_.size());
+    parallelFor(
+        label(work_.size()),
+        [&](label begin, label end) {
+            for (label i = begin; i < end; ++i)
+            {
+                const tensor change = dt * work_[i];
+                mean[i] = (cofactor_[i] + 4 * cofactorOf(F_[i] + 0.5 * change) +
+                           cofactorOf(F_[i] + change)) /
+                          6;
+                missed[i] = (mean[i] - cofactor_[i]).cwiseProduct(change).sum();
+            }
+        },
+        256);
 }
 
 void volumeConstraint::addStress(const List<vec4>& up, List<tensor>& P) const
