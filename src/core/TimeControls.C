@@ -103,33 +103,34 @@ scalar Time::chosenStart() const
     const bool given = control_.found("startTime");
     if (from == "startTime") return control_.get<scalar>("startTime");
     const scalar otherwise = given ? control_.get<scalar>("startTime") : 0;
-    List<scalar> candidates = times();
-    if (from == "firstTime") return candidates.empty() ? otherwise : candidates.front();
-    while (!candidates.empty() && !hasState(candidates.back())) candidates.pop_back();
-    return candidates.empty() ? otherwise : candidates.back();
+    List<folderOfTime> candidates = folders();
+    if (from == "firstTime") return candidates.empty() ? otherwise : candidates.front().t;
+    while (!candidates.empty() && !hasState(candidates.back().name)) candidates.pop_back();
+    return candidates.empty() ? otherwise : candidates.back().t;
 }
 
-List<scalar> Time::times() const
+List<Time::folderOfTime> Time::folders() const
 {
-    List<scalar> all;
+    List<folderOfTime> all;
     for (const word& name : folderNames(case_))
-        if (scalar t; readNumber(name, t)) all.push_back(t);
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+        if (scalar t; readNumber(name, t)) all.push_back({t, name});
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& a, const auto& b) { return a.t < b.t; });
+    const auto same = [](const auto& a, const auto& b) { return a.t == b.t; };
+    all.erase(std::unique(all.begin(), all.end(), same), all.end());
     return all;
 }
 
 word Time::folderName(scalar t) const
 {
-    for (const word& name : folderNames(case_))
-        if (scalar number; readNumber(name, number) && std::abs(number - t) <= 1e-12 * std::abs(t))
-            return name;
+    for (const folderOfTime& f : folders())
+        if (std::abs(f.t - t) <= 1e-12 * std::abs(t)) return f.name;
     return timeName(t);
 }
 
-bool Time::hasState(scalar t) const
+bool Time::hasState(const word& name) const
 {
-    return isFile(folder(t) + "/particles.hdf");
+    return isFile(case_ + "/" + name + "/particles.hdf");
 }
 
 // The folder name holds few digits; uniform/time holds all of them

@@ -64,7 +64,7 @@ List<word> folderNames(const word& folder)
     List<word> names;
     std::error_code error;
     for (const auto& item : fs::directory_iterator(folder, error))
-        if (isFolder(item.path().string())) names.push_back(item.path().filename().string());
+        if (item.is_directory(error)) names.push_back(item.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
 }

@@ -159,12 +159,9 @@ void writeCloud(Time& time, const particleCloud& cloud, const boundary& walls)
 
     const List<word> purge = time.toPurge();
     List<seriesEntry> series;
-    for (const scalar t : time.times())
-    {
-        const word folder = time.folderName(t);
-        if (time.hasState(t) && std::find(purge.begin(), purge.end(), folder) == purge.end())
+    for (const auto& [t, folder] : time.folders())
+        if (time.hasState(folder) && std::find(purge.begin(), purge.end(), folder) == purge.end())
             series.push_back({t, folder + "/particles.hdf"});
-    }
     writeSeries(time.caseFolder() + "/particles.hdf.series", series);
     for (const word& folder : purge) fs::remove_all(time.caseFolder() + "/" + folder);
 }
