@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "enclosedFluid.H"
+#include "closedBodies.H"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace ispf
 {
@@ -15,76 +15,10 @@ namespace
 // left is the difference of two surface sums
 constexpr scalar balanced = 0.3;
 
-constexpr scalar borderShare = 0.2;   // of a particle's neighbours
-constexpr label strays = 5;           // particles
 constexpr scalar largestShare = 0.2;  // of the fluxes: 0.01 is usual
 constexpr scalar facetShare = 0.05;   // by which surfaces that move along may differ
 
 }  // namespace
-
-// The lowest zone of the body that each zone belongs to.  Zones are joined by particles that lie at their
-// border, with neighbours of both; one that has strayed through a wall has few or none of its own.
-List<label> enclosedFluid::joinZones() const
-{
-    const particleCloud& cloud = c_.cloud;
-    const label nz = label(cloud.zones.size());
-    List<label> root(nz);
-    std::iota(root.begin(), root.end(), 0);
-    const auto isFluid = [](const zoneInfo& z) { return z.phase == phaseType::fluid; };
-    if (std::count_if(cloud.zones.begin(), cloud.zones.end(), isFluid) < 2) return root;
-
-    constexpr label block = 4096;
-    const label nBlocks = (cloud.n() + block - 1) / block;
-    List<List<char>> borders(nBlocks, List<char>(nz * nz, 0));
-    const auto look = [&](label i, List<label>& seen, List<char>& found) {
-        std::fill(seen.begin(), seen.end(), 0);
-        for (std::int64_t k = c_.list.start[i]; k < c_.list.mid[i]; ++k)
-        {
-            const label j = c_.list.index[k];
-            ++seen[cloud.zone[j < cloud.n() ? j : cloud.ghostSource(j)]];
-        }
-        const scalar all = scalar(c_.list.mid[i] - c_.list.start[i]);
-        for (label z = 0; z < nz; ++z)
-            if (seen[z] > borderShare * all && seen[z] < (1 - borderShare) * all)
-                found[cloud.zone[i] * nz + z] = 1;
-    };
-    parallelFor(
-        nBlocks,
-        [&](label begin, label end) {
-            List<label> seen(nz);
-            for (label b = begin; b < end; ++b)
-                for (label i = std::max(cloud.nSolid(), b * block);
-                     i < std::min(cloud.n(), (b + 1) * block); ++i)
-                    look(i, seen, borders[b]);
-        },
-        1);
-    for (label a = 0; a < nz; ++a)
-        for (label b = 0; b < nz; ++b)
-        {
-            const auto joined = [&](const List<char>& s) { return s[a * nz + b]; };
-            if (root[a] == root[b] || std::none_of(borders.begin(), borders.end(), joined))
-                continue;
-            const auto [low, high] = std::minmax(root[a], root[b]);
-            std::replace(root.begin(), root.end(), label(high), label(low));
-        }
-    return root;
-}
-
-// Particles of each zone, and whether an open face drains it: more than a few that have strayed there
-bool enclosedFluid::countZones(List<label>& count, List<label>& fixed) const
-{
-    const particleCloud& cloud = c_.cloud;
-    count.assign(cloud.zones.size(), 0), fixed = count;
-    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        ++count[cloud.zone[i]], fixed[cloud.zone[i]] += cloud.pFixed[i];
-    bool anyClosed = false;
-    for (size_t z = 0; z < count.size(); ++z)
-    {
-        if (fixed[z] <= std::min(strays, count[z] / 200)) fixed[z] = 0;
-        anyClosed = anyClosed || (count[z] > 0 && fixed[z] == 0);
-    }
-    return anyClosed;
-}
 
 void enclosedFluid::setup(const monolithicRows& system, const solidSurface* surface)
 {
@@ -92,26 +26,24 @@ void enclosedFluid::setup(const monolithicRows& system, const solidSurface* surf
     const particleCloud& cloud = c_.cloud;
     const label nz = label(cloud.zones.size());
     bodies_.clear(), bodyOf_.assign(nz, -1), allFree_ = false;
-    List<label> count, fixed;
-    if (!countZones(count, fixed)) return;
+    const List<label> rootOf = closedBodies(cloud, c_.list);
+    if (std::all_of(rootOf.begin(), rootOf.end(), [](label r) { return r < 0; })) return;
 
-    const List<label> root = joinZones();
     const sweptRates swept = c_.walls->swept(cloud);
+    List<label> count(nz, 0);
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i) ++count[cloud.zone[i]];
     for (label r = 0; r < nz; ++r)
     {
         body b;
         b.isZone.assign(nz, 0);
-        bool open = false;
         for (label z = r; z < nz; ++z)
         {
-            if (root[z] != r || count[z] == 0) continue;
+            if (rootOf[z] != r) continue;
             b.zones.push_back(z), b.isZone[z] = 1, b.n += count[z];
             b.pushed += swept.net[z], b.gross += swept.gross[z];
-            open = open || fixed[z] > 0;
+            bodyOf_[z] = label(bodies_.size());
         }
-        if (open || b.n == 0) continue;
-        for (const label z : b.zones) bodyOf_[z] = label(bodies_.size());
-        bodies_.push_back(std::move(b));
+        if (b.n > 0) bodies_.push_back(std::move(b));
     }
     scalar wetted = 0;
     for (body& b : bodies_)

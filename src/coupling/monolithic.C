@@ -13,6 +13,7 @@
 //         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
 //     }
 #include "couplingScheme.H"
+#include "densityFeedback.H"
 #include "FGMRES.H"
 #include "monolithicPreconditioner.H"
 #include "particleShifting.H"
@@ -48,7 +49,8 @@ public:
           absTolerance_(dict_.getInRangeOrDefault("absTolerance", 0, 0.1, 1e-5)),
           maxIter_(dict_.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
           makesGood_(dict_.getOrDefault("divergenceDefect", true)),
-          shifting_(c.solution.subOrEmptyDict("shifting"))
+          shifting_(c.solution.subOrEmptyDict("shifting")),
+          density_(c.solution, *c.kernel, c.cloud)
     {
         system_.enclosed().makeGood(makesGood_);
         if (!c.structure) return;
@@ -83,6 +85,7 @@ private:
     label maxIter_;
     bool makesGood_;
     particleShifting shifting_;
+    densityFeedback density_;
 
     std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
@@ -93,13 +96,7 @@ private:
 
 scalar monolithic::velocityScale() const
 {
-    const particleCloud& cloud = c_.cloud;
-    const scalar u = maxOf(cloud.n(), [&](label b, label e) {
-        scalar most = 0;
-        for (label i = b; i < e; ++i) most = std::max(most, cloud.Up[i].xyz().norm());
-        return most;
-    });
-    return std::max({u, c_.walls->maxWallSpeed(), scalar(0)});
+    return std::max(c_.cloud.maxSpeed(), c_.walls->maxWallSpeed());
 }
 
 // What rounding leaves of a row: of the springs' positions and of the pressure gradient [m/s].  At rest
@@ -186,6 +183,7 @@ void monolithic::accept(const List<scalar>& z, scalar dt)
 // Books what the step's sources have put in; what its rates have missed is for the next
 void monolithic::account(scalar dt)
 {
+    density_.book(c_.cloud, dt);
     List<tensor> cofactor;
     if (c_.structure)
     {
@@ -208,6 +206,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
         q[i] = c_.source[cloud.zone[i]];
     if (c_.structure) system_.setup(dt, volume_.get(), &surface_, &K_);
     else system_.setup(dt, nullptr, nullptr, nullptr);
+    density_.addTo(q, c_.list, system_.enclosed().bodyOf());
     system_.enclosed().addDefect(q);
     preconditioner_.setup();
     system_.rightHandSide(theta_, springForce_, q, b);

@@ -8,9 +8,11 @@
 //         positionUpdate symplectic;   // or mean, x += dt (u^n + u^{n+1})/2 as in the paper
 //         limits { CFL 0.4; force 0.25; viscous 0.125; }
 //     }
-//     shifting { ... }     solvers { p { ... } U { ... } }
+//     shifting { ... }     densityFeedback 1;     solvers { p { ... } U { ... } }
 //
 // and `divergence`, `gradient` of system/sphSchemes.
+#include "closedBodies.H"
+#include "densityFeedback.H"
 #include "hydrostaticPart.H"
 #include "particleShifting.H"
 #include "projectionLimits.H"
@@ -39,6 +41,7 @@ public:
           step_(c.rho, c.mu, explicit_ ? "explicit" : "implicit",
                 operatorSchemes::fromDict(c.schemes), c.solution),
           shifting_(c.solution.subOrEmptyDict("shifting")),
+          density_(c.solution, *c.kernel, c.cloud),
           hydrostatic_(c)
     {
         info() << "projection: viscosity " << (explicit_ ? "explicit" : "implicit")
@@ -62,6 +65,7 @@ private:
     projectionLimits limits_;
     projectionStep step_;
     particleShifting shifting_;
+    densityFeedback density_;
     hydrostaticPart hydrostatic_;
 };
 
@@ -120,12 +124,15 @@ void projection::printCourant(scalar dt) const
 void projection::solve(const stencil& s, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
-    const List<scalar> q = sources();
+    List<scalar> q = sources();
+    q.resize(cloud.n(), 0);
+    density_.addTo(q, c_.list, closedBodies(cloud, c_.list));
     step_.predict(cloud, s, accelerations(), dt);
     hydrostatic_.take(cloud);
     step_.project(cloud, s, q, c_.kernel->support(), dt);
     hydrostatic_.giveBack(cloud);
     step_.printContinuityErrors(cloud, s, q, dt);
+    density_.book(cloud, dt);
 }
 
 void projection::step(scalar t, scalar dt)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volumeLedger.H"
+#include "densityFeedback.H"
 #include "enclosedFluid.H"
 
 #include <filesystem>
@@ -37,7 +38,9 @@ volumeLedger::volumeLedger(fsiCase& c) : c_(c)
     if (!file_) throw fatalError("Cannot write " + folder + "/volumeLedger.dat");
     file_ << "# Volumes of the whole body [m^" << c.cloud.nDims
           << "] since the start; control and what follows: put in\n"
-          << "# Time\tswept\tcavity\topenNet\twall\tcontrol\twallFeedback\tdefect\twallDefect\n";
+          << "# "
+             "Time\tswept\tcavity\topenNet\twall\tcontrol\twallFeedback\tdefect\twallDefect\tfluidF"
+             "eedback\n";
 }
 
 scalar volumeLedger::swept() const
@@ -100,8 +103,9 @@ void volumeLedger::writeLine()
     file_ << std::scientific << std::setprecision(6) << std::setw(14) << std::left
           << c_.time.timeName();
     const scalar wall = wallVolume() - wall0_, feedback = wallFeedback();
-    for (const scalar v : {swept(), cavityChange(), open, wall, controlled_, feedback,
-                           booked(c_, divergenceDefect), booked(c_, solidDefect)})
+    for (const scalar v :
+         {swept(), cavityChange(), open, wall, controlled_, feedback, booked(c_, divergenceDefect),
+          booked(c_, solidDefect), booked(c_, fluidFeedback)})
         file_ << '\t' << v;
     file_ << std::endl;
     const auto inMm = [&](scalar v) {

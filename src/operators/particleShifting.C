@@ -64,16 +64,6 @@ ISPF_HOT void evaluate(const shiftRows& s, label begin, label end, change* resul
     }
 }
 
-scalar maxSpeed(const particleCloud& cloud)
-{
-    const scalar most = maxOf(cloud.n(), [&](label begin, label end) {
-        scalar m = 0;
-        for (label i = begin; i < end; ++i) m = std::max(m, cloud.Up[i].xyz().squaredNorm());
-        return m;
-    });
-    return std::sqrt(std::max(most, 0.0));
-}
-
 }  // namespace
 
 particleShifting::particleShifting(const dictionary& dict)
@@ -96,7 +86,7 @@ void particleShifting::shift(particleCloud& cloud, const neighbourList& list,
                          list,
                          correction,
                          leaveAlone,
-                         constant_ * maxSpeed(cloud) * dt,
+                         constant_ * cloud.maxSpeed() * dt,
                          maxShift_ * cloud.dx};
     if (!(rows.alpha > 0)) return;
     cloud.fillGhosts(cloud.Up, false);

@@ -148,6 +148,16 @@ void particleCloud::fillGradientGhosts(List<vec4>& f) const
     });
 }
 
+scalar particleCloud::maxSpeed() const
+{
+    const scalar most = maxOf(n(), [&](label begin, label end) {
+        scalar m = 0;
+        for (label i = begin; i < end; ++i) m = std::max(m, Up[i].xyz().squaredNorm());
+        return m;
+    });
+    return std::sqrt(std::max(most, 0.0));
+}
+
 word particleCloud::describe(label i) const
 {
     return "particle " + std::to_string(id[i]) + " (zone " + zones[zone[i]].name + ") at (" +

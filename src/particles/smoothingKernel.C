@@ -21,7 +21,7 @@ struct cubic
 {
     static constexpr scalar support = 2;
     static constexpr scalar norm[2] = {10 / (7 * M_PI), 1 / M_PI};
-    static scalar w(scalar q)
+    static ISPF_INLINE scalar w(scalar q)
     {
         const scalar a = positive(2 - q), b = positive(1 - q);
         return 0.25 * a * a * a - b * b * b;
@@ -38,7 +38,7 @@ struct quintic
     static constexpr scalar support = 3;
     static constexpr scalar norm[2] = {7 / (478 * M_PI), 1 / (120 * M_PI)};
     static ISPF_INLINE scalar power4(scalar a) { return a * a * a * a; }
-    static scalar w(scalar q)
+    static ISPF_INLINE scalar w(scalar q)
     {
         const scalar a = positive(3 - q), b = positive(2 - q), c = positive(1 - q);
         return power4(a) * a - 6 * power4(b) * b + 15 * power4(c) * c;
@@ -56,7 +56,7 @@ struct wendlandC2
 {
     static constexpr scalar support = 2;
     static constexpr scalar norm[2] = {7 / (4 * M_PI), 21 / (16 * M_PI)};
-    static scalar w(scalar q)
+    static ISPF_INLINE scalar w(scalar q)
     {
         const scalar t = positive(1 - 0.5 * q);
         return t * t * t * t * (1 + 2 * q);
@@ -72,7 +72,7 @@ struct wendlandC4
 {
     static constexpr scalar support = 2;
     static constexpr scalar norm[2] = {9 / (4 * M_PI), 495 / (256 * M_PI)};
-    static scalar w(scalar q)
+    static ISPF_INLINE scalar w(scalar q)
     {
         const scalar t = positive(1 - 0.5 * q);
         return t * t * t * t * t * t * (35 * q * q / 12 + 3 * q + 1);
@@ -95,6 +95,11 @@ public:
     {
     }
     scalar W(scalar r) const override { return scaleW_ * Shape::w(r / h_); }
+    void W(const scalar* rSqr, scalar* W, label n) const override
+    {
+        const scalar perH = 1 / h_, scale = scaleW_;
+        for (label k = 0; k < n; ++k) W[k] = scale * Shape::w(std::sqrt(rSqr[k]) * perH);
+    }
     void F(const scalar* rSqr, scalar* F, label n) const override
     {
         const scalar perH = 1 / h_, scale = scaleF_;
@@ -123,12 +128,17 @@ std::unique_ptr<smoothingKernel> smoothingKernel::New(const word& name, int nDim
 
 scalar smoothingKernel::latticeSum(scalar dx) const
 {
+    return latticeSum(dx, [&](scalar r) { return W(r); });
+}
+
+scalar smoothingKernel::latticeSum(scalar dx, const std::function<scalar(scalar)>& value) const
+{
     const int m = int(support() / dx) + 1;
     scalar sum = 0;
     for (int i = -m; i <= m; ++i)
         for (int j = -m; j <= m; ++j)
             for (int k = nDims_ == 3 ? -m : 0; k <= (nDims_ == 3 ? m : 0); ++k)
-                sum += W(dx * std::sqrt(scalar(i * i + j * j + k * k)));
+                sum += value(dx * std::sqrt(scalar(i * i + j * j + k * k)));
     return sum * std::pow(dx, nDims_);
 }
 

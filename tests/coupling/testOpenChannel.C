@@ -3,7 +3,7 @@
 // channel must keep its volume, and no gap may open.  One face is flat, the other of any shape.
 #include "boundary/scene.H"
 #include "caseOnDisk.H"
-#include "pointGrid.H"
+#include "widestGap.H"
 
 #include <algorithm>
 #include <cmath>
@@ -121,20 +121,12 @@ scalar inChannel(const scenario& s, const particleCloud& cloud)
     return sum;
 }
 
-// Largest distance of a point of the channel from a particle or its image [dx]
-scalar widestGap(const scenario& s, fsiCase& c)
+// Spots between the faces where there should be fluid
+List<vector> spots(const scenario& s)
 {
-    c.walls->updateGhosts(c.cloud);
-    pointGrid all(2 * dx);
-    for (label i = 0; i < c.cloud.nAll(); ++i) all.add(c.cloud.x[i].xyz());
-    c.cloud.clearGhosts();
-    scalar widest = 0;
-    const vector high(length + height, height, 0);
-    for (const vector& x : scene::lattice(
-             0.25 * dx, {0, 0, 0}, high,
-             [&](const vector& p) { return s.inside(p) && s.depth(p) <= 0; }, 2))
-        widest = std::max(widest, all.nearest(x, 2 * dx) / dx);
-    return widest;
+    return scene::lattice(
+        0.25 * dx, {0, 0, 0}, {length + height, height, 0},
+        [&](const vector& p) { return s.inside(p) && s.depth(p) <= 0; }, 2);
 }
 
 // The volume is asked for at the end, gaps at any time
@@ -156,7 +148,7 @@ void check(const scenario& s, scalar dt, int steps)
         scalar u = 0;
         for (label i = 0; i < c.cloud.n(); ++i) u += c.cloud.Up[i][0] / c.cloud.n();
         way += dt * std::abs(u) / dx;
-        if (step % 10 == 0) gap = std::max(gap, widestGap(s, c));
+        if (step % 10 == 0) gap = std::max(gap, widestGap(c, spots(s)));
     }
     CHECK(way > 50);
     CHECK(std::abs(inChannel(s, c.cloud) / before - 1) < 0.005);

@@ -3,6 +3,7 @@
 #include "boundary/scene.H"
 #include "caseOnDisk.H"
 #include "relative.H"
+#include "widestGap.H"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -100,14 +101,16 @@ scalar inChannel(const particleCloud& cloud)
     return sum;
 }
 
-// A plunger at one end, symmetry planes along the sides, an open face at the other end
-void writeChannel(caseOnDisk& files, const word& coupling, const word& plunger)
+const word slip = "type symmetryPlane;";
+
+// A plunger at one end, sides, an open face at the other end
+void writeChannel(caseOnDisk& files, const word& coupling, const word& plunger,
+                  const word& side = slip)
 {
-    files.solution = "coupling " + coupling + ";";
+    files.solution += "coupling " + coupling + ";";
     files.control = "startTime 0; endTime 100; deltaT 1; writeControl timeStep; writeInterval 1e6;";
-    files.boundary = "plunger { type wall; " + plunger +
-                     " } bottom { type symmetryPlane; point (0 0 0); normal (0 -1 0); }"
-                     "top { type symmetryPlane; point (0 " +
+    files.boundary = "plunger { type wall; " + plunger + " } bottom { " + side +
+                     " point (0 0 0); normal (0 -1 0); } top { " + side + " point (0 " +
                      str(height, 17) +
                      " 0); normal (0 1 0); }"
                      "right { type open; surface plane; point (" +
@@ -211,4 +214,60 @@ TEST_CASE("a plunger and a force along the open face: no jet inwards feeds itsel
         }
         CHECK(u < 3.5 * fastest);  // at static pressure (backflow 0): 4.2
     }
+}
+
+namespace
+{
+
+struct loss
+{
+    scalar volume = 0;  // of the channel's, mean of the last period
+    scalar gap = 0;     // [dx]
+};
+
+// Five strokes of eight spacings to and fro between walls that the fluid sticks to
+loss afterTenReversals(const word& coupling, const word& kind, const word& solution)
+{
+    caseOnDisk files("reversals");
+    files.properties = "rho 1000; mu 0.05;";
+    files.solution = solution;
+    writeChannel(files, coupling,
+                 "motion { direction (1 0 0); displacement { type sine; level 4e-3; "
+                 "amplitude 4e-3; frequency 2; t0 0.125; } }",
+                 "type wall; surface plane; representation " + kind + ";");
+    capturedLog log;
+    Time time(files.path());
+    fsiCase c(time);
+    const auto scheme = couplingScheme::New(c);
+    const scalar before = inChannel(c.cloud), dt = 2e-3;
+    loss result;
+    for (int n = 0; n < 125; ++n)
+    {
+        runSteps(c, *scheme, dt, 10);
+        const scalar plunger = 4e-3 * (1 - std::cos(4 * M_PI * c.time.value()));
+        const List<vector> spots = lattice(
+            0.25 * dx, {plunger, 0, 0}, {length, height, 0},
+            [&](const vector& x) { return x[0] > plunger; }, 2);
+        result.gap = std::max(result.gap, widestGap(c, spots));
+        if (n < 100) continue;
+        const scalar swept = plunger * height / c.cloud.volume();
+        result.volume += ((inChannel(c.cloud) + swept) / before - 1) / 25;
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("ten reversals of a plunger between walls")
+{
+    for (const char* coupling : {"projection", "monolithic"})
+        for (const char* kind : {"mirror", "particles"})
+        {
+            CAPTURE(coupling);
+            CAPTURE(kind);
+            const loss l = afterTenReversals(coupling, kind, "");
+            CHECK(std::abs(l.volume) < 0.005);
+            CHECK(l.gap < 1.3);
+        }
+    CHECK(afterTenReversals("monolithic", "particles", "densityFeedback 0;").volume < -0.01);
 }

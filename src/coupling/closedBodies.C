@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "closedBodies.H"
+
+#include <algorithm>
+#include <numeric>
+
+namespace ispf
+{
+
+namespace
+{
+
+constexpr scalar borderShare = 0.2;  // of a particle's neighbours
+constexpr label strays = 5;          // particles
+
+// Per zone; strays: a few particles that have got past an open face do not make a body open
+struct zoneCount
+{
+    label particles = 0, fixed = 0;
+    bool open() const { return fixed > std::min(strays, particles / 200); }
+};
+
+List<zoneCount> countZones(const particleCloud& cloud)
+{
+    List<zoneCount> count(cloud.zones.size());
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+    {
+        zoneCount& c = count[cloud.zone[i]];
+        ++c.particles, c.fixed += cloud.pFixed[i];
+    }
+    return count;
+}
+
+// Of fluid particles [begin, end): [a * zones + b] where one of zone a lies at the border to zone b, with
+// neighbours of both; one that has strayed through a wall has few or none of its own
+List<char> bordersOf(const particleCloud& cloud, const neighbourList& list, label begin, label end)
+{
+    const label nz = label(cloud.zones.size());
+    List<char> borders(nz * nz, 0);
+    List<label> seen(nz);
+    for (label i = begin; i < end; ++i)
+    {
+        std::fill(seen.begin(), seen.end(), 0);
+        for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
+        {
+            const label j = list.index[k];
+            ++seen[cloud.zone[j < cloud.n() ? j : cloud.ghostSource(j)]];
+        }
+        const scalar all = scalar(list.mid[i] - list.start[i]);
+        for (label z = 0; z < nz; ++z)
+            if (seen[z] > borderShare * all && seen[z] < (1 - borderShare) * all)
+                borders[cloud.zone[i] * nz + z] = 1;
+    }
+    return borders;
+}
+
+// The lowest zone of the body that each zone belongs to
+List<label> joinZones(const particleCloud& cloud, const neighbourList& list)
+{
+    const label nz = label(cloud.zones.size());
+    List<label> root(nz);
+    std::iota(root.begin(), root.end(), 0);
+    const auto isFluid = [](const zoneInfo& z) { return z.phase == phaseType::fluid; };
+    if (std::count_if(cloud.zones.begin(), cloud.zones.end(), isFluid) < 2) return root;
+
+    constexpr label block = 4096;
+    const label first = cloud.nSolid(), nBlocks = (cloud.n() - first + block - 1) / block;
+    List<List<char>> borders(nBlocks);
+    parallelFor(
+        nBlocks,
+        [&](label begin, label end) {
+            for (label b = begin; b < end; ++b)
+                borders[b] = bordersOf(cloud, list, first + b * block,
+                                       std::min(cloud.n(), first + (b + 1) * block));
+        },
+        1);
+    for (label a = 0; a < nz; ++a)
+        for (label b = 0; b < nz; ++b)
+        {
+            const auto joined = [&](const List<char>& s) { return s[a * nz + b]; };
+            if (root[a] == root[b] || std::none_of(borders.begin(), borders.end(), joined))
+                continue;
+            const auto [low, high] = std::minmax(root[a], root[b]);
+            std::replace(root.begin(), root.end(), label(high), label(low));
+        }
+    return root;
+}
+
+}  // namespace
+
+List<label> closedBodies(const particleCloud& cloud, const neighbourList& list)
+{
+    const label nz = label(cloud.zones.size());
+    const List<zoneCount> count = countZones(cloud);
+    const auto isClosed = [](const zoneCount& c) { return c.particles > 0 && !c.open(); };
+    if (std::none_of(count.begin(), count.end(), isClosed)) return List<label>(nz, -1);
+    List<label> root = joinZones(cloud, list);
+    List<char> drained(nz, 0);
+    for (label z = 0; z < nz; ++z) drained[root[z]] |= count[z].open();
+    for (label z = 0; z < nz; ++z)
+        if (count[z].particles == 0 || drained[root[z]]) root[z] = -1;
+    return root;
+}
+
+}  // namespace ispf

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "densityFeedback.H"
+#include "../periodicBox.H"
+#include "../relative.H"
+
+#include <doctest/doctest.h>
+
+using namespace ispf;
+
+namespace
+{
+
+// Source of the particles in lattice spacings per time, where the fastest moves by one
+List<scalar> sourceOf(periodicBox& box, const word& solution, label bodyOf, const List<scalar>& given)
+{
+    box.cloud.Up[3].setXyz({0, box.cloud.dx, 0});
+    densityFeedback feedback(dictionary::fromString(solution), *box.kernel, box.cloud);
+    List<scalar> q = given;
+    feedback.addTo(q, box.list, {bodyOf});
+    return q;
+}
+
+List<scalar> sourceOf(periodicBox& box, const word& solution = "", label bodyOf = -1)
+{
+    return sourceOf(box, solution, bodyOf, List<scalar>(box.cloud.n(), 0));
+}
+
+}  // namespace
+
+TEST_CASE("density feedback: none on a lattice, and what lies off it is not taken for dense")
+{
+    for (const char* kernel : {"WendlandC2", "WendlandC4", "quintic", "cubic"})
+        for (const int nDims : {2, 3})
+        {
+            CAPTURE(kernel);
+            CAPTURE(nDims);
+            const scalar hByDx = kernel[0] == 'W' ? (kernel[8] == '4' ? 1.6 : 1.3) : 1;
+            periodicBox lattice(nDims, nDims == 2 ? 40 : 14, 0, kernel, hByDx);
+            CHECK(std::abs(sourceOf(lattice)[5]) < 1e-12);
+            // displacements by up to dx/10 look like 0.23 to 0.85 % of fluid too much
+            periodicBox box(nDims, nDims == 2 ? 40 : 14, 0.1, kernel, hByDx);
+            CHECK(std::abs(sourceOf(box)[5]) < 0.0015);
+        }
+}
+
+TEST_CASE("density feedback: a fluid too thin is given a sink, evenly; a closed body, one with a source and one "
+          "at rest are left alone")
+{
+    periodicBox box(2, 30, 0.05, "WendlandC2", 1.3);
+    List<char> gone(box.cloud.n(), 0);
+    for (label i = 0; i < box.cloud.n(); i += 90) gone[i] = 1;  // ten of 900
+    box.cloud.remove(gone);
+    box.update();
+    const List<scalar> q = sourceOf(box);
+    CHECK(q[5] < -0.005);
+    CHECK(q[5] > -0.02);
+    CHECK(*std::min_element(q.begin(), q.end()) == *std::max_element(q.begin(), q.end()));
+    CHECK(sourceOf(box, "densityFeedback 0.5;")[5] == relative(0.5 * q[5], 1e-12));
+    CHECK(sourceOf(box, "densityFeedback 0;")[5] == 0);
+    CHECK(sourceOf(box, "", 0)[5] == 0);
+    CHECK(sourceOf(box, "", -1, List<scalar>(box.cloud.n(), 0.3))[5] == 0.3);
+    box.cloud.pFixed[7] = 1;
+    CHECK(sourceOf(box)[7] == 0);
+    densityFeedback feedback(dictionary::fromString(""), *box.kernel, box.cloud);
+    for (vec4& up : box.cloud.Up) up = vec4{};
+    List<scalar> atRest(box.cloud.n(), 0);
+    feedback.addTo(atRest, box.list, {-1});
+    CHECK(atRest[5] == 0);
+}
+
+TEST_CASE("density feedback books what it has put in")
+{
+    periodicBox box(2, 20, 0.05, "WendlandC2", 1.3);
+    box.cloud.Up[3].setXyz({0, 1, 0});
+    densityFeedback feedback(dictionary::fromString(""), *box.kernel, box.cloud);
+    List<scalar> q(box.cloud.n(), 0);
+    feedback.addTo(q, box.list, {-1});
+    feedback.book(box.cloud, 0.25), feedback.book(box.cloud, 0.5);
+    CHECK(box.cloud.history.at(fluidFeedback)[0] == relative(0.75 * q[5], 1e-9));  // of a unit square
+}
