@@ -61,13 +61,14 @@ planeLattice::axis planeLattice::axisOf(const vector& e, const List<wall>& walls
 
     const label n = std::max<label>(1, label(std::lround((a.high - a.low) / dx_)));
     const bool both = a.lowBound && a.highBound;
-    scalar first = a.low + 0.5 * dx_;
-    if (!a.lowBound && a.highBound) first = a.high - (n - 0.5) * dx_;
-    if (!a.lowBound && !a.highBound)
-        first = (std::floor(a.low / dx_) + 0.5) * dx_;  // of no particle: a restart finds the same
-    const scalar spacing = both ? (a.high - a.low) / n : dx_;
-    if (both) first = a.low + 0.5 * spacing;
-    for (label k = 0; k < n; ++k) a.inside.push_back(first + k * spacing);
+    // free ends depend on the particles: a restart must find the same points, to the last digit
+    const auto at = [&](label k) -> scalar {
+        if (both) return a.low + (k + 0.5) * (a.high - a.low) / n;
+        if (a.highBound) return a.high - (n - k - 0.5) * dx_;
+        if (a.lowBound) return a.low + (k + 0.5) * dx_;
+        return (std::floor(a.low / dx_) + k + 0.5) * dx_;
+    };
+    for (label k = 0; k < n; ++k) a.inside.push_back(at(k));
     for (scalar d = 0.5 * dx_; d < support_; d += dx_)
     {
         if (a.lowWall >= 0) a.below.push_back(a.low - d);

@@ -27,6 +27,8 @@ word formattedTime(const char* form, int precision, scalar t)
 // Is `name` a way of writing t, with whatever timeFormat and timePrecision it was written
 bool isNameOf(const word& name, scalar t)
 {
+    if (scalar number; readNumber(name, number) && std::abs(number - t) <= 1e-12 * std::abs(t))
+        return true;
     for (int precision = 3; precision <= 17; ++precision)
         for (const char* form : {"%.*g", "%.*f", "%.*e"})
             if (formattedTime(form, precision, t) == name) return true;

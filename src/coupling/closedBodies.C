@@ -11,22 +11,37 @@ namespace
 {
 
 constexpr scalar borderShare = 0.2;  // of a particle's neighbours
-constexpr label strays = 5;          // particles
 
-// Per zone; strays: a few particles that have got past an open face do not make a body open
+// The owned particle that neighbour k of the list is, or is an image of
+label ownerOf(const particleCloud& cloud, const neighbourList& list, std::int64_t k)
+{
+    const label j = list.index[k];
+    return j < cloud.n() ? j : cloud.ghostSource(j);
+}
+
+// Does fluid particle i lie among its own zone?  A stray that has got through a wall does not
+bool amongItsOwn(const particleCloud& cloud, const neighbourList& list, label i)
+{
+    label own = 0;
+    for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
+        own += cloud.zone[ownerOf(cloud, list, k)] == cloud.zone[i];
+    return 2 * own > list.mid[i] - list.start[i];
+}
+
 struct zoneCount
 {
-    label particles = 0, fixed = 0;
-    bool open() const { return fixed > std::min(strays, particles / 200); }
+    label particles = 0;
+    bool open = false;
 };
 
-List<zoneCount> countZones(const particleCloud& cloud)
+List<zoneCount> countZones(const particleCloud& cloud, const neighbourList& list)
 {
     List<zoneCount> count(cloud.zones.size());
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
     {
         zoneCount& c = count[cloud.zone[i]];
-        ++c.particles, c.fixed += cloud.pFixed[i];
+        ++c.particles;
+        c.open = c.open || (cloud.pFixed[i] && amongItsOwn(cloud, list, i));
     }
     return count;
 }
@@ -42,10 +57,7 @@ List<char> bordersOf(const particleCloud& cloud, const neighbourList& list, labe
     {
         std::fill(seen.begin(), seen.end(), 0);
         for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
-        {
-            const label j = list.index[k];
-            ++seen[cloud.zone[j < cloud.n() ? j : cloud.ghostSource(j)]];
-        }
+            ++seen[cloud.zone[ownerOf(cloud, list, k)]];
         const scalar all = scalar(list.mid[i] - list.start[i]);
         for (label z = 0; z < nz; ++z)
             if (seen[z] > borderShare * all && seen[z] < (1 - borderShare) * all)
@@ -91,15 +103,34 @@ List<label> joinZones(const particleCloud& cloud, const neighbourList& list)
 List<label> closedBodies(const particleCloud& cloud, const neighbourList& list)
 {
     const label nz = label(cloud.zones.size());
-    const List<zoneCount> count = countZones(cloud);
-    const auto isClosed = [](const zoneCount& c) { return c.particles > 0 && !c.open(); };
+    const List<zoneCount> count = countZones(cloud, list);
+    const auto isClosed = [](const zoneCount& c) { return c.particles > 0 && !c.open; };
     if (std::none_of(count.begin(), count.end(), isClosed)) return List<label>(nz, -1);
     List<label> root = joinZones(cloud, list);
     List<char> drained(nz, 0);
-    for (label z = 0; z < nz; ++z) drained[root[z]] |= count[z].open();
+    for (label z = 0; z < nz; ++z) drained[root[z]] |= count[z].open;
     for (label z = 0; z < nz; ++z)
         if (count[z].particles == 0 || drained[root[z]]) root[z] = -1;
     return root;
+}
+
+List<char> drainedFluid(const particleCloud& cloud, const neighbourList& list,
+                        const List<label>& bodyOf)
+{
+    List<char> drained(cloud.n(), 0);
+    List<label> next;
+    const auto reach = [&](label i) {
+        if (!drained[i] && bodyOf[cloud.zone[i]] < 0) drained[i] = 1, next.push_back(i);
+    };
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (cloud.pFixed[i]) reach(i);
+    while (!next.empty())
+    {
+        const label i = next.back();
+        next.pop_back();
+        for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k) reach(ownerOf(cloud, list, k));
+    }
+    return drained;
 }
 
 }  // namespace ispf

@@ -13,6 +13,7 @@
 //         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
 //     }
 //     shifting { ... }     densityFeedback 1;
+#include "closedBodies.H"
 #include "couplingScheme.H"
 #include "densityFeedback.H"
 #include "FGMRES.H"
@@ -207,7 +208,8 @@ word monolithic::solve(scalar dt, List<scalar>& z)
         q[i] = c_.source[cloud.zone[i]];
     if (c_.structure) system_.setup(dt, volume_.get(), &surface_, &K_);
     else system_.setup(dt, nullptr, nullptr, nullptr);
-    density_.addTo(q, c_.list, system_.enclosed().bodyOf());
+    if (density_.on())
+        density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, system_.enclosed().bodyOf()));
     system_.enclosed().addDefect(q);
     preconditioner_.setup();
     system_.rightHandSide(theta_, springForce_, q, b);

@@ -126,7 +126,8 @@ void projection::solve(const stencil& s, scalar dt)
     particleCloud& cloud = c_.cloud;
     List<scalar> q = sources();
     q.resize(cloud.n(), 0);
-    density_.addTo(q, c_.list, closedBodies(cloud, c_.list));
+    if (density_.on())
+        density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, closedBodies(cloud, c_.list)));
     step_.predict(cloud, s, accelerations(), dt);
     hydrostatic_.take(cloud);
     step_.project(cloud, s, q, c_.kernel->support(), dt);

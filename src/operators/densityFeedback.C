@@ -109,15 +109,17 @@ densityFeedback::densityFeedback(const dictionary& solution, const smoothingKern
 {
 }
 
-void densityFeedback::addTo(List<scalar>& q, const neighbourList& list, const List<label>& bodyOf)
+void densityFeedback::addTo(List<scalar>& q, const neighbourList& list, const List<char>& drained)
 {
     added_ = 0;
     const scalar rate = constant_ * cloud_.maxSpeed() / cloud_.dx;
     if (!(rate > 0)) return;
-    const auto isOf = [&](label i, label z) { return cloud_.zone[i] == z && q[i] == 0; };
+    const auto isOf = [&](label i, label z) {
+        return drained[i] && cloud_.zone[i] == z && q[i] == 0;
+    };
     for (label z = 0; z < label(cloud_.zones.size()); ++z)
     {
-        if (cloud_.zones[z].phase != phaseType::fluid || bodyOf[z] >= 0) continue;
+        if (cloud_.zones[z].phase != phaseType::fluid) continue;
         const density s(cloud_, list, kernel_, [&](label i) { return isOf(i, z); });
         if (s.n < fewest) continue;
         const scalar source = rate * ((s.mean - k_ * s.variance) / latticeSum_ - 1);

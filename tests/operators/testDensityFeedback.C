@@ -11,18 +11,19 @@ namespace
 {
 
 // Source of the particles in lattice spacings per time, where the fastest moves by one
-List<scalar> sourceOf(periodicBox& box, const word& solution, label bodyOf, const List<scalar>& given)
+List<scalar> sourceOf(periodicBox& box, const word& solution, bool drained,
+                      const List<scalar>& given)
 {
     box.cloud.Up[3].setXyz({0, box.cloud.dx, 0});
     densityFeedback feedback(dictionary::fromString(solution), *box.kernel, box.cloud);
     List<scalar> q = given;
-    feedback.addTo(q, box.list, {bodyOf});
+    feedback.addTo(q, box.list, List<char>(box.cloud.n(), drained));
     return q;
 }
 
-List<scalar> sourceOf(periodicBox& box, const word& solution = "", label bodyOf = -1)
+List<scalar> sourceOf(periodicBox& box, const word& solution = "", bool drained = true)
 {
-    return sourceOf(box, solution, bodyOf, List<scalar>(box.cloud.n(), 0));
+    return sourceOf(box, solution, drained, List<scalar>(box.cloud.n(), 0));
 }
 
 }  // namespace
@@ -43,8 +44,10 @@ TEST_CASE("density feedback: none on a lattice, and what lies off it is not take
         }
 }
 
-TEST_CASE("density feedback: a fluid too thin is given a sink, evenly; a closed body, one with a source and one "
-          "at rest are left alone")
+TEST_CASE(
+    "density feedback: a fluid too thin is given a sink, evenly; a closed body, one with a source "
+    "and one "
+    "at rest are left alone")
 {
     periodicBox box(2, 30, 0.05, "WendlandC2", 1.3);
     List<char> gone(box.cloud.n(), 0);
@@ -57,14 +60,14 @@ TEST_CASE("density feedback: a fluid too thin is given a sink, evenly; a closed 
     CHECK(*std::min_element(q.begin(), q.end()) == *std::max_element(q.begin(), q.end()));
     CHECK(sourceOf(box, "densityFeedback 0.5;")[5] == relative(0.5 * q[5], 1e-12));
     CHECK(sourceOf(box, "densityFeedback 0;")[5] == 0);
-    CHECK(sourceOf(box, "", 0)[5] == 0);
-    CHECK(sourceOf(box, "", -1, List<scalar>(box.cloud.n(), 0.3))[5] == 0.3);
+    CHECK(sourceOf(box, "", false)[5] == 0);
+    CHECK(sourceOf(box, "", true, List<scalar>(box.cloud.n(), 0.3))[5] == 0.3);
     box.cloud.pFixed[7] = 1;
     CHECK(sourceOf(box)[7] == 0);
     densityFeedback feedback(dictionary::fromString(""), *box.kernel, box.cloud);
     for (vec4& up : box.cloud.Up) up = vec4{};
     List<scalar> atRest(box.cloud.n(), 0);
-    feedback.addTo(atRest, box.list, {-1});
+    feedback.addTo(atRest, box.list, List<char>(box.cloud.n(), 1));
     CHECK(atRest[5] == 0);
 }
 
@@ -74,7 +77,8 @@ TEST_CASE("density feedback books what it has put in")
     box.cloud.Up[3].setXyz({0, 1, 0});
     densityFeedback feedback(dictionary::fromString(""), *box.kernel, box.cloud);
     List<scalar> q(box.cloud.n(), 0);
-    feedback.addTo(q, box.list, {-1});
+    feedback.addTo(q, box.list, List<char>(box.cloud.n(), 1));
     feedback.book(box.cloud, 0.25), feedback.book(box.cloud, 0.5);
-    CHECK(box.cloud.history.at(fluidFeedback)[0] == relative(0.75 * q[5], 1e-9));  // of a unit square
+    CHECK(box.cloud.history.at(fluidFeedback)[0] ==
+          relative(0.75 * q[5], 1e-9));  // of a unit square
 }
