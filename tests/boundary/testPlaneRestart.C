@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene.H"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 
 using namespace scene;
@@ -45,8 +46,9 @@ List<scalar> heights(const word& others, int n)
 TEST_CASE("the points of a plane wall do not depend on where the fluid was when it was made")
 {
     // a still wall binds the other end
-    const word bottom = "bottom { type wall; surface plane; representation particles; "
-                        "point (0 0 0); normal (0 -1 0); }";
+    const word bottom =
+        "bottom { type wall; surface plane; representation particles; "
+        "point (0 0 0); normal (0 -1 0); }";
     for (const word& others : {word(), bottom})
         for (const int n : {31, 34, 37, 45, 52, 61})
         {

@@ -66,7 +66,7 @@ TEST_CASE("bodies of fluid: of two vessels in one zone the closed one is not dra
 TEST_CASE("bodies of fluid: a narrow outlet drains, a stray beyond another zone's face does not")
 {
     vessels narrow({"water"});
-    narrow.add(0, 0, 0, 40), narrow.add(50, 0, 2, 2);
+    narrow.add(0, 0, 0, 100), narrow.add(110, 0, 2, 2);  // four of a thousand
     narrow.close();
     CHECK(narrow.bodyOf == List<label>{-1});
     vessels stray({"bath", "chamber"});

@@ -3,6 +3,7 @@
 #include "../periodicBox.H"
 #include "../relative.H"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 
 using namespace ispf;
@@ -45,9 +46,7 @@ TEST_CASE("density feedback: none on a lattice, and what lies off it is not take
 }
 
 TEST_CASE(
-    "density feedback: a fluid too thin is given a sink, evenly; a closed body, one with a source "
-    "and one "
-    "at rest are left alone")
+    "density feedback: a sink for thin fluid, evenly; none if closed, with a source, or at rest")
 {
     periodicBox box(2, 30, 0.05, "WendlandC2", 1.3);
     List<char> gone(box.cloud.n(), 0);
