@@ -12,19 +12,12 @@ namespace
 
 constexpr scalar borderShare = 0.2;  // of a particle's neighbours
 
-// The owned particle that neighbour k of the list is, or is an image of
-label ownerOf(const particleCloud& cloud, const neighbourList& list, std::int64_t k)
-{
-    const label j = list.index[k];
-    return j < cloud.n() ? j : cloud.ghostSource(j);
-}
-
 // Does fluid particle i lie among its own zone?  A stray that has got through a wall does not
 bool amongItsOwn(const particleCloud& cloud, const neighbourList& list, label i)
 {
     label own = 0;
     for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
-        own += cloud.zone[ownerOf(cloud, list, k)] == cloud.zone[i];
+        own += cloud.zone[cloud.ownerOf(list.index[k])] == cloud.zone[i];
     return 2 * own > list.mid[i] - list.start[i];
 }
 
@@ -57,7 +50,7 @@ List<char> bordersOf(const particleCloud& cloud, const neighbourList& list, labe
     {
         std::fill(seen.begin(), seen.end(), 0);
         for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
-            ++seen[cloud.zone[ownerOf(cloud, list, k)]];
+            ++seen[cloud.zone[cloud.ownerOf(list.index[k])]];
         const scalar all = scalar(list.mid[i] - list.start[i]);
         for (label z = 0; z < nz; ++z)
             if (seen[z] > borderShare * all && seen[z] < (1 - borderShare) * all)
@@ -128,7 +121,8 @@ List<char> drainedFluid(const particleCloud& cloud, const neighbourList& list,
     {
         const label i = next.back();
         next.pop_back();
-        for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k) reach(ownerOf(cloud, list, k));
+        for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
+            reach(cloud.ownerOf(list.index[k]));
     }
     return drained;
 }

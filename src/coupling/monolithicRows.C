@@ -156,15 +156,11 @@ void monolithicRows::setTau(const List<scalar>& tau, scalar fluidTau)
     fluidTau_ = fluidTau;
     if (!volume_) return;
     pairTau_.resize(list_->index.size());
-    const auto tauOf = [&](label j) {
-        if (j < cloud_->n()) return tau[j];
-        return tau[cloud_->ghostSource(j)];
-    };
     parallelFor(cloud_->n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
             for (std::int64_t k = list_->start[i]; k < list_->mid[i]; ++k)
             {
-                const scalar a = tau[i], b = tauOf(list_->index[k]);
+                const scalar a = tau[i], b = tau[cloud_->ownerOf(list_->index[k])];
                 pairTau_[k] = 2 * a * b / (a + b);
             }
     });

@@ -39,10 +39,7 @@ scalar disorderExcess(const smoothingKernel& kernel, int nDims, scalar dx)
 bool besideOpenFace(const particleCloud& cloud, const neighbourList& list, label i)
 {
     for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
-    {
-        const label j = list.index[k];
-        if (cloud.pFixed[j < cloud.n() ? j : cloud.ghostSource(j)]) return true;
-    }
+        if (cloud.pFixed[cloud.ownerOf(list.index[k])]) return true;
     return cloud.pFixed[i];
 }
 
