@@ -105,9 +105,10 @@ void boundary::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
     for (const openFace& face : content_->openFaces) face.setFlags(cloud, rho, bodyForce);
 }
 
-void boundary::setOpenVelocity(particleCloud& cloud, scalar dt) const
+void boundary::setOpenVelocity(particleCloud& cloud, scalar rho, const List<vector>& bodyForce,
+                               scalar dt) const
 {
-    for (const openFace& face : content_->openFaces) face.followInside(cloud, dt);
+    for (const openFace& face : content_->openFaces) face.followInside(cloud, rho, bodyForce, dt);
 }
 
 void boundary::updateGhosts(particleCloud& cloud) const

@@ -21,7 +21,8 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
       backflow_(dict.getInRangeOrDefault("backflow", 0, 1, 0.5)),
       spotGrid_(1.5 * cloud.dx)
 {
-    const scalar near = depth_ + dx_, far = std::max(near, openLayer::reach * dx_);
+    const scalar near = std::max(depth_ + dx_, before * dx_),
+                 far = std::max(near, openLayer::reach * dx_);
     if (dict.chooseOrDefault("surface", {"triSurface", "plane"}, "triSurface") == "plane")
     {
         const vector point = dict.get<vector>("point"), normal = nonZero(dict, "normal");
@@ -58,7 +59,7 @@ void openFace::findFeet(const particleCloud& cloud) const
 bool openFace::beyondStrip(const vector& x) const
 {
     const surfaceFoot f = surface_->find(x);
-    return f.found && f.depth > depth_;
+    return f.found && f.aside == 0 && f.depth > depth_;  // beside its rim the face does not tell
 }
 
 bool openFace::near(label i) const

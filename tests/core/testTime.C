@@ -208,7 +208,7 @@ TEST_CASE("startFrom: only folders that hold a state count as latest")
     std::filesystem::remove_all(c.path + "/1.5");
     CHECK(c.time().value() == 1.0 / 3);
     CHECK(c.time().timeIndex() == 3);
-    CHECK(c.time().deltaT() == 1);  // adjustTimeStep is off
+    CHECK(c.time().deltaT() == 1);                                    // adjustTimeStep is off
     c.write("0.50/uniform/time", "value 0.5; index 7; deltaT 0.1;");  // spelt by hand
     c.write("0.50/particles.hdf", "x");
     CHECK(c.time().timeIndex() == 7);
