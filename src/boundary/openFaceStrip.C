@@ -2,7 +2,9 @@
 // Pressure and velocity of the strip beyond an open face
 #include "openFace.H"
 
+#include <array>
 #include <cmath>
+#include <map>
 
 namespace ispf
 {
@@ -16,6 +18,23 @@ const word slopeField = "openSlope";
 // [dx] Where it is taken begins so far before the surface, and reaches so far along it.  Nearer, the velocity is
 // bent into the strip's, which is uniform along normals: a pressure of its own, which must not be carried on
 constexpr scalar from = 2.5, around = 4;
+
+// Weighted mean over the fluid of one zone, or over all where there is none of it (other zones may lie behind a wall)
+template <class T>
+class weightedMean
+{
+public:
+    void add(const T& value, scalar w, bool own) { sum_[own] += w * value, weight_[own] += w; }
+    void get(T& mean) const  // leaves it as it is where there is no fluid
+    {
+        const bool own = weight_[1] > 0;
+        if (weight_[own] > 0) mean = sum_[own] / weight_[own];
+    }
+
+private:
+    T sum_[2] = {T::Zero(), T::Zero()};
+    scalar weight_[2] = {0, 0};
+};
 
 scalar along(const vector& normal, const List<vector>& bodyForce, std::uint8_t zone)
 {
@@ -43,54 +62,86 @@ void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
     });
 }
 
-// The fluid before the surface, by feet on it
-struct openFace::fluidBefore
+// The velocity close before the surface, by feet on it
+struct openFace::velocityBefore
 {
-    const openFace& face;
     const particleCloud& cloud;
     scalar radius;
     pointGrid feet;
     List<label> index;
 
-    fluidBefore(const openFace& of, const particleCloud& c, scalar depth, scalar r)
-        : face(of), cloud(c), radius(r), feet(r)
+    velocityBefore(const openFace& face, const particleCloud& c)
+        : cloud(c), radius(1.5 * face.dx_), feet(radius)
     {
         for (label i = cloud.nSolid(); i < cloud.n(); ++i)
             if (const surfaceFoot& f = face.known_[i].foot;
-                f.found && f.depth <= 0 && f.depth > -depth)
+                f.found && f.depth <= 0 && f.depth > -face.depth_)
                 feet.add(f.foot), index.push_back(i);
     }
 
-    // Mean of value(j), a vector, over the fluid of a zone; false if there is none
-    template <class Value, class Result>
-    bool mean(const vector& foot, std::uint8_t zone, Value&& value, Result& result) const
+    void mean(const vector& foot, std::uint8_t zone, vector& u) const
     {
-        Result sum = Result::Zero();
-        scalar weights = 0;
+        weightedMean<vector> sum;
         feet.within(foot, radius, [&](label k, scalar r) {
-            if (cloud.zone[index[k]] != zone) return;
-            const scalar w = weight(r / radius);
-            sum += w * value(index[k]), weights += w;
+            const label j = index[k];
+            sum.add(cloud.Up[j].xyz(), weight(r / radius), cloud.zone[j] == zone);
         });
-        if (weights > 0) result = sum / weights;
-        return weights > 0;
+        sum.get(u);
+    }
+};
+
+// What tells the slope of the pressure, summed over the fluid whose feet share a square of dx
+struct openFace::slopeBefore
+{
+    // 1, d, d^2, p, p d where deep enough to be fitted, d depth in dx;  acceleration [m/s^2]
+    using sums = Eigen::Matrix<scalar, 8, 1>;
+    struct bin
+    {
+        scalar n = 0;
+        vector foot = vector::Zero();
+        sums value = sums::Zero();
+        std::uint8_t zone = 0;
+    };
+
+    scalar dx, rho;
+    List<bin> bins;
+    pointGrid feet;
+
+    slopeBefore(const openFace& face, const particleCloud& cloud, scalar density, scalar dt)
+        : dx(face.dx_), rho(density), feet(around * dx)
+    {
+        std::map<std::array<int, 4>, bin> squares;
+        for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        {
+            const auto& [x, f, u] = face.known_[i];
+            if (!f.found || f.depth > 0 || f.depth < -before * dx) continue;
+            const auto cell = [&](int k) { return int(std::floor(f.foot[k] / dx)); };
+            bin& b = squares[{cell(0), cell(1), cell(2), cloud.zone[i]}];
+            b.n += 1, b.foot += f.foot, b.zone = cloud.zone[i];
+            const scalar d = f.depth / dx, p = cloud.Up[i][3];
+            if (d < -from) b.value.head<5>() += sums{{1, d, d * d, p, p * d, 0, 0, 0}}.head<5>();
+            b.value.tail<3>() += (cloud.Up[i].xyz() - u) / dt;
+        }
+        for (auto& [cell, b] : squares) feet.add(b.foot / b.n), bins.push_back(b);
     }
 
-    // Of the pressure over the depth, by least squares; false where the fluid is too thin to tell
-    bool slope(const vector& foot, std::uint8_t zone, scalar& result) const
+    // Least squares over the depth, or -rho a_n where the fluid is too thin for that.  rhoB: of the body force
+    scalar at(const surfaceFoot& f, std::uint8_t zone, scalar rhoB) const
     {
-        using moments = Eigen::Matrix<scalar, 5, 1>;
-        const scalar dx = face.dx_;
-        moments m;
-        const auto value = [&](label j) -> moments {
-            const scalar d = face.known_[j].foot.depth / dx, p = cloud.Up[j][3];
-            return d > -from ? moments(moments::Zero()) : moments{{1, d, d * d, p, p * d}};
-        };
-        if (!mean(foot, zone, value, m) || m[0] <= 0) return false;
-        m /= m[0];
+        const scalar radius = around * dx;
+        weightedMean<sums> sum;
+        feet.within(f.foot, radius, [&](label k, scalar r) {
+            const bin& b = bins[k];
+            sum.add(b.value / b.n, b.n * weight(r / radius), b.zone == zone);
+        });
+        sums m = sums::Zero();
+        sum.get(m);
+        const scalar inertia = -rho * m.tail<3>().dot(f.normal);
+        if (m[0] <= 0) return inertia;
+        m.head<5>() /= scalar(m[0]);
         const scalar spread = m[2] - m[1] * m[1];
-        result = (m[4] - m[3] * m[1]) / spread / dx;
-        return spread > 0.4;  // of three layers 0.67
+        return spread > 0.4 ? (m[4] - m[3] * m[1]) / spread / dx - rhoB
+                            : inertia;  // of 3 layers 0.67
     }
 };
 
@@ -100,11 +151,9 @@ void openFace::followInside(particleCloud& cloud, scalar rho, const List<vector>
                             scalar dt) const
 {
     findFeet(cloud);
-    const fluidBefore near(*this, cloud, depth_, 1.5 * dx_);
-    const fluidBefore region(*this, cloud, before * dx_, around * dx_);
-    List<scalar>& slope = cloud.scalars.at(slopeField);
-    const auto velocity = [&](label j) { return cloud.Up[j].xyz(); };
-    const auto change = [&](label j) { return vector(cloud.Up[j].xyz() - known_[j].u); };
+    const velocityBefore velocity(*this, cloud);
+    const slopeBefore slope(*this, cloud, rho, dt);
+    List<scalar>& carried = cloud.scalars.at(slopeField);
     parallelFor(
         cloud.n() - cloud.nSolid(),
         [&](label begin, label end) {
@@ -112,14 +161,12 @@ void openFace::followInside(particleCloud& cloud, scalar rho, const List<vector>
             {
                 const surfaceFoot& f = known_[i].foot;
                 if (!f.found || f.depth < -dx_) continue;
-                vector du, u;
-                scalar fitted;
-                if (region.slope(f.foot, cloud.zone[i], fitted))
-                    slope[i] = fitted - rho * along(f.normal, bodyForce, cloud.zone[i]);
-                else if (region.mean(f.foot, cloud.zone[i], change, du))
-                    slope[i] = -rho * du.dot(f.normal) / dt;
-                if (f.depth > 0 && near.mean(f.foot, cloud.zone[i], velocity, u))
-                    cloud.Up[i].setXyz(u);
+                const std::uint8_t zone = cloud.zone[i];
+                carried[i] = slope.at(f, zone, rho * along(f.normal, bodyForce, zone));
+                if (f.depth <= 0) continue;
+                vector u = cloud.Up[i].xyz();
+                velocity.mean(f.foot, zone, u);
+                cloud.Up[i].setXyz(u);
             }
         },
         256);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A pressure drives the fluid of a channel through open faces at both ends, to and fro or through it: the
-// channel must keep its volume, and no gap may open.  One face is flat, the other of any shape.
+// channel must keep its volume, and no gap may open.  One face is flat, the other of any shape.  Between two flat
+// ones steady flow is Poiseuille's.
 #include "boundary/scene.H"
 #include "caseOnDisk.H"
+#include "relative.H"
 #include "widestGap.H"
 
 #include <algorithm>
@@ -59,6 +61,7 @@ struct scenario
 {
     face right;
     word coupling = "projection", kind = "particles", pressure = "0;";
+    scalar mu = 0.05;
 
     static bool inside(const vector& x) { return x[1] > 0 && x[1] < height; }
     scalar depth(const vector& x) const { return std::max(-x[0], right.depth(x)); }
@@ -89,7 +92,7 @@ void write(const scenario& s, caseOnDisk& files)
         patch("top", wall, {0, height, 0}, {0, 1, 0}) +
         patch("left", "type open; surface plane; p " + s.pressure, {0, 0, 0}, {-1, 0, 0}) +
         "right { type open; p 0; }";
-    files.properties = "rho 1000; mu 0.05;";
+    files.properties = "rho 1000; mu " + str(s.mu) + ";";
     files.schemes = "kernel WendlandC2; hByDx 1.3;";
     files.solution = "coupling " + s.coupling + ";";
     files.control = "startTime 0; endTime 100; deltaT 1; writeControl timeStep; writeInterval 1e6;";
@@ -162,7 +165,43 @@ void checkReversals(scenario s)
     check(s, 4e-3, 500);
 }
 
+// Mean velocity along the channel over that of Poiseuille flow, once steady
+scalar steadyFlow(const scenario& s, scalar pressure, scalar dt)
+{
+    caseOnDisk files("openPoiseuille");
+    write(s, files);
+    capturedLog log;
+    Time time(files.path());
+    fsiCase c(time);
+    const auto scheme = couplingScheme::New(c);
+    const scalar tau = 1000 * height * height / (s.mu * M_PI * M_PI);
+    runSteps(c, *scheme, dt, label(5 * tau / dt));
+    scalar sum = 0, n = 0;
+    for (int k = 0; k < 10; ++k)
+    {
+        runSteps(c, *scheme, dt, label(0.05 * tau / dt) + 1);
+        for (label i = 0; i < c.cloud.n(); ++i)
+            if (const scalar x = c.cloud.x[i][0]; x > 0 && x < length) sum += c.cloud.Up[i][0], ++n;
+    }
+    return sum / n / (pressure / length * height * height / (12 * s.mu));
+}
+
 }  // namespace
+
+TEST_CASE("Poiseuille flow between two open faces, with both couplings")
+{
+    scenario s{straightFace(0)};
+    s.mu = 0.2, s.pressure = "3.3; backflow 0;";
+    for (const auto& [coupling, dt] :
+         {std::pair("projection", 1.5e-3), std::pair("monolithic", 8e-3)})
+        for (const char* kind : {"particles", "mirror"})
+        {
+            s.coupling = coupling, s.kind = kind;
+            CAPTURE(s.coupling);
+            CAPTURE(s.kind);
+            CHECK(steadyFlow(s, 3.3, dt) == relative(1, 0.015));
+        }
+}
 
 TEST_CASE("ten reversals of a driven flow between walls, flat faces")
 {

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the strip beyond an open face takes from the fluid before it
+#include "relative.H"
+#include "scene.H"
+#include <doctest/doctest.h>
+
+using namespace scene;
+
+namespace
+{
+
+constexpr scalar top = 16, given = 100, rho = 1000, dt = 0.1;
+
+// A column of fluid from z = bottom up to the open face at z = 16, two layers beyond it
+struct column
+{
+    folder f;
+    particleCloud cloud;
+    std::unique_ptr<boundary> b;
+
+    explicit column(scalar bottom)
+    {
+        const auto within = [](const vector& x) {
+            return x[0] > 0 && x[0] < 12 && x[1] > 0 && x[1] < 12;
+        };
+        const auto layers = [&](scalar from, scalar to) {
+            return lattice(1, {0, 0, from}, {12, 12, to},
+                           [&](const vector& x) { return within(x) && x[2] > from && x[2] < to; });
+        };
+        const List<vector> beyond = layers(top, top + 1.6);
+        List<vector> all = layers(bottom, top);
+        all.insert(all.end(), beyond.begin(), beyond.end());
+        f.surface("top", sheet({0, 0, top}, {12, 0, 0}, {0, 12, 0}, 4));
+        f.points("openSites.hdf", {{"top", beyond}});
+        cloud = fluid(all, 1);
+        const word sides =
+            "xLow { type cyclic; point (0 0 0); separation (12 0 0); }"
+            "yLow { type cyclic; point (0 0 0); separation (0 12 0); }";
+        b = std::make_unique<boundary>(
+            f.path, dictionary::fromString(sides + "top { type open; p " + str(given) + "; }"),
+            cloud, 2.6);
+        b->setStep(0, dt);
+    }
+
+    scalar depth(label i) const { return cloud.x[i][2] - top; }
+    // p of the strip over p of its face, at a metre's depth
+    void checkSlope(scalar expected)
+    {
+        for (label i = 0; i < cloud.n(); ++i)
+        {
+            CHECK(bool(cloud.pFixed[i]) == (depth(i) > 0));
+            if (depth(i) > 0) CHECK(cloud.pGiven[i] - given == relative(expected * depth(i), 1e-9));
+        }
+    }
+};
+
+}  // namespace
+
+TEST_CASE("the strip beyond an open face carries on the slope of the pressure before it")
+{
+    column c(0);
+    const List<vector> g = {{0, 0, -9.81}}, later = {{0, 0, -5}};
+    c.b->setFlags(c.cloud, rho, g);
+    c.checkSlope(-9.81 * rho);
+
+    // what is near the face is the strip's own doing
+    for (label i = 0; i < c.cloud.n(); ++i)
+        c.cloud.Up[i] =
+            vec4::from(vector::Zero(), given - 40 * c.depth(i) + (c.depth(i) > -2.4 ? 1000 : 0));
+    c.b->setOpenVelocity(c.cloud, rho, g, dt);
+    c.b->setFlags(c.cloud, rho, g);
+    c.checkSlope(-40);
+    c.b->setFlags(c.cloud, rho, later);
+    c.checkSlope(-40 + (9.81 - 5) * rho);
+}
+
+TEST_CASE("before an open face lie three layers only: their acceleration tells the slope")
+{
+    column c(top - 3);
+    c.b->setFlags(c.cloud, rho, {});
+    for (label i = 0; i < c.cloud.n(); ++i) c.cloud.Up[i] = vec4::from({0, 0, 0.2});
+    c.b->setOpenVelocity(c.cloud, rho, {}, dt);
+    c.b->setFlags(c.cloud, rho, {});
+    c.checkSlope(-rho * 0.2 / dt);
+}
+
+TEST_CASE("the strip follows the fluid before it, of its own zone where there is any")
+{
+    column c(0);
+    c.cloud.zones.push_back({"other", phaseType::fluid, false});
+    c.b->setFlags(c.cloud, rho, {});
+    const auto strip = [&](scalar x) {
+        for (label i = 0; i < c.cloud.n(); ++i)
+            if (c.depth(i) > 0 && std::abs(c.cloud.x[i][0] - x) < 0.1) return c.cloud.Up[i].xyz();
+        return vector(vector::Zero());
+    };
+    for (label i = 0; i < c.cloud.n(); ++i)
+    {
+        c.cloud.zone[i] = c.depth(i) > 0;  // the strip's is not that of the fluid, but where x > 9
+        const bool own = c.depth(i) <= 0 && c.cloud.x[i][0] > 9;
+        if (own) c.cloud.zone[i] = 1;
+        c.cloud.Up[i] = vec4::from({0, 0, own ? 2.0 : 1.0});
+        if (c.depth(i) > 0) c.cloud.Up[i] = vec4::from({0, 0, 7});
+    }
+    c.b->setOpenVelocity(c.cloud, rho, {}, dt);
+    CHECK(strip(5.5)[2] == relative(1, 1e-12));
+    CHECK(strip(9.5)[2] == relative(2, 1e-12));
+}
