@@ -108,8 +108,8 @@ List<label> openFace::choose(const census& c, const place& movingWall) const
             for (label k = begin; k < end; ++k)
             {
                 const spot& at = spots_[k];
+                if (c.particles.any(at.x, closest * dx_)) continue;
                 hole[k] = c.particles.nearest(at.x, 1.5 * dx_);
-                if (hole[k] < closest * dx_) continue;
                 const scalar inLayer = before(at.foot);
                 missingNear[k] =
                     without(c.feet, at.foot, at.fullNear, near_) + hereOfRegion * inLayer;
