@@ -105,10 +105,15 @@ void boundary::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
     for (const openFace& face : content_->openFaces) face.setFlags(cloud, rho, bodyForce);
 }
 
-void boundary::setOpenVelocity(particleCloud& cloud, scalar rho, const List<vector>& bodyForce,
+bool boundary::hasOpen() const
+{
+    return !content_->openFaces.empty();
+}
+
+void boundary::setOpenVelocity(particleCloud& cloud, const List<vec4>& friction, scalar rho,
                                scalar dt) const
 {
-    for (const openFace& face : content_->openFaces) face.followInside(cloud, rho, bodyForce, dt);
+    for (const openFace& face : content_->openFaces) face.followInside(cloud, friction, rho, dt);
 }
 
 void boundary::updateGhosts(particleCloud& cloud) const

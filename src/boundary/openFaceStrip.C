@@ -15,9 +15,10 @@ namespace
 // Slope of the pressure before the face, along its normal, less that of the body force [Pa/m]: a field of the
 // particles near the face
 const word slopeField = "openSlope";
-// [dx] Where it is taken begins so far before the surface, and reaches so far along it.  Nearer, the velocity is
-// bent into the strip's, which is uniform along normals: a pressure of its own, which must not be carried on
-constexpr scalar from = 2.5, around = 4;
+// [dx] The acceleration is that of so many layers before the surface, friction begins so far before it; both are means
+// so far along it.  Nearer, the velocity is bent into the strip's, which is uniform along normals: that has no friction
+// but its own
+constexpr scalar layers = 3, from = 2.5, around = 4;
 
 // Weighted mean over the fluid of one zone, or over all where there is none of it (other zones may lie behind a wall)
 template <class T>
@@ -36,11 +37,6 @@ private:
     scalar weight_[2] = {0, 0};
 };
 
-scalar along(const vector& normal, const List<vector>& bodyForce, std::uint8_t zone)
-{
-    return bodyForce.empty() ? 0 : bodyForce[zone].dot(normal);
-}
-
 }  // namespace
 
 void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bodyForce) const
@@ -54,7 +50,7 @@ void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
             known_[i].u = cloud.Up[i].xyz();
             const surfaceFoot& f = known_[i].foot;
             if (!f.found || f.depth <= 0) continue;
-            const scalar b = along(f.normal, bodyForce, cloud.zone[i]);
+            const scalar b = bodyForce.empty() ? 0 : bodyForce[cloud.zone[i]].dot(f.normal);
             const scalar in = std::min(known_[i].u.dot(f.normal), scalar(0));
             cloud.pFixed[i] = 1;
             cloud.pGiven[i] = given_ - backflow_ * rho * in * in + (rho * b + slope[i]) * f.depth;
@@ -93,8 +89,9 @@ struct openFace::velocityBefore
 // What tells the slope of the pressure, summed over the fluid whose feet share a square of dx
 struct openFace::slopeBefore
 {
-    // 1, d, d^2, p, p d where deep enough to be fitted, d depth in dx;  acceleration [m/s^2]
-    using sums = Eigen::Matrix<scalar, 8, 1>;
+    using sums =
+        Eigen::Matrix<scalar, 8,
+                      1>;  // 1, acceleration of near fluid; 1, friction of that further before
     struct bin
     {
         scalar n = 0;
@@ -103,13 +100,15 @@ struct openFace::slopeBefore
         std::uint8_t zone = 0;
     };
 
-    scalar dx, rho;
+    scalar radius, rho;
     List<bin> bins;
     pointGrid feet;
 
-    slopeBefore(const openFace& face, const particleCloud& cloud, scalar density, scalar dt)
-        : dx(face.dx_), rho(density), feet(around * dx)
+    slopeBefore(const openFace& face, const particleCloud& cloud, const List<vec4>& friction,
+                scalar density, scalar dt)
+        : radius(around * face.dx_), rho(density), feet(radius)
     {
+        const scalar dx = face.dx_;
         std::map<std::array<int, 4>, bin> squares;
         for (label i = cloud.nSolid(); i < cloud.n(); ++i)
         {
@@ -118,41 +117,40 @@ struct openFace::slopeBefore
             const auto cell = [&](int k) { return int(std::floor(f.foot[k] / dx)); };
             bin& b = squares[{cell(0), cell(1), cell(2), cloud.zone[i]}];
             b.n += 1, b.foot += f.foot, b.zone = cloud.zone[i];
-            const scalar d = f.depth / dx, p = cloud.Up[i][3];
-            if (d < -from) b.value.head<5>() += sums{{1, d, d * d, p, p * d, 0, 0, 0}}.head<5>();
-            b.value.tail<3>() += (cloud.Up[i].xyz() - u) / dt;
+            const auto add = [&](int k, const vector& v) {
+                b.value[k] += 1, b.value.segment<3>(k + 1) += v;
+            };
+            if (f.depth > -layers * dx) add(0, (cloud.Up[i].xyz() - u) / dt);
+            if (f.depth < -from * dx) add(4, friction[i].xyz());
         }
         for (auto& [cell, b] : squares) feet.add(b.foot / b.n), bins.push_back(b);
     }
 
-    // Least squares over the depth, or -rho a_n where the fluid is too thin for that.  rhoB: of the body force
-    scalar at(const surfaceFoot& f, std::uint8_t zone, scalar rhoB) const
+    // -rho a_n + friction_n
+    scalar at(const surfaceFoot& f, std::uint8_t zone) const
     {
-        const scalar radius = around * dx;
         weightedMean<sums> sum;
         feet.within(f.foot, radius, [&](label k, scalar r) {
-            const bin& b = bins[k];
-            sum.add(b.value / b.n, b.n * weight(r / radius), b.zone == zone);
+            const bin& at = bins[k];
+            sum.add(at.value / at.n, at.n * weight(r / radius), at.zone == zone);
         });
         sums m = sums::Zero();
         sum.get(m);
-        const scalar inertia = -rho * m.tail<3>().dot(f.normal);
-        if (m[0] <= 0) return inertia;
-        m.head<5>() /= scalar(m[0]);
-        const scalar spread = m[2] - m[1] * m[1];
-        return spread > 0.4 ? (m[4] - m[3] * m[1]) / spread / dx - rhoB
-                            : inertia;  // of 3 layers 0.67
+        const auto mean = [&](int k) {
+            return m[k] > 0 ? m.segment<3>(k + 1).dot(f.normal) / m[k] : 0;
+        };
+        return mean(4) - rho * mean(0);
     }
 };
 
 // The strip takes the mean velocity of 1.5 dx before the surface.  Over a wider reach the flow along the surface
 // would run into a wall or away from it: nothing in the strip holds it back
-void openFace::followInside(particleCloud& cloud, scalar rho, const List<vector>& bodyForce,
+void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, scalar rho,
                             scalar dt) const
 {
     findFeet(cloud);
     const velocityBefore velocity(*this, cloud);
-    const slopeBefore slope(*this, cloud, rho, dt);
+    const slopeBefore slope(*this, cloud, friction, rho, dt);
     List<scalar>& carried = cloud.scalars.at(slopeField);
     parallelFor(
         cloud.n() - cloud.nSolid(),
@@ -161,11 +159,10 @@ void openFace::followInside(particleCloud& cloud, scalar rho, const List<vector>
             {
                 const surfaceFoot& f = known_[i].foot;
                 if (!f.found || f.depth < -dx_) continue;
-                const std::uint8_t zone = cloud.zone[i];
-                carried[i] = slope.at(f, zone, rho * along(f.normal, bodyForce, zone));
+                carried[i] = slope.at(f, cloud.zone[i]);
                 if (f.depth <= 0) continue;
                 vector u = cloud.Up[i].xyz();
-                velocity.mean(f.foot, zone, u);
+                velocity.mean(f.foot, cloud.zone[i], u);
                 cloud.Up[i].setXyz(u);
             }
         },

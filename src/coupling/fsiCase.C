@@ -2,6 +2,7 @@
 #include "fsiCase.H"
 
 #include "cloudIO.H"
+#include "sphc.H"
 
 #include <cmath>
 #include <filesystem>
@@ -150,6 +151,15 @@ void fsiCase::updateNeighbours(scalar t0, scalar t1)
     walls->updateGhosts(cloud);
     list.build(cloud, *kernel, walls->visible(cloud));
     correction.build(cloud, list);
+}
+
+void fsiCase::followOpen(scalar dt)
+{
+    if (!walls->hasOpen()) return;
+    cloud.fillGhosts(cloud.Up, false);
+    List<vec4> friction = sphc::laplacian({cloud, list, correction}, cloud.Up);
+    for (vec4& f : friction) f.s *= mu;
+    walls->setOpenVelocity(cloud, friction, rho, dt);
 }
 
 void fsiCase::report() const

@@ -277,7 +277,7 @@ void monolithic::advance(scalar t, scalar dt, int depth)
     account(dt);
     system_.hydrostatic().giveBack(cloud);
 
-    c_.walls->setOpenVelocity(cloud, c_.rho, c_.bodyForce, dt);
+    c_.followOpen(dt);
     // Shift first, with the neighbours at hand, then move: x^{n+1} = x^n + dt u^{n+1}
     shifting_.shift(cloud, c_.list, c_.correction, dt,
                     [&](label i) { return c_.walls->nearOpen(i); });

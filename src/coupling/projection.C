@@ -152,7 +152,7 @@ void projection::step(scalar t, scalar dt)
         throw fatalError("Time " + str(t + dt) + " s: " + e.what());
     }
     cloud.checkFinite(t + dt);
-    c_.walls->setOpenVelocity(cloud, c_.rho, c_.bodyForce, dt);
+    c_.followOpen(dt);
 
     // shifted with the neighbours at hand, then moved
     shifting_.shift(cloud, c_.list, c_.correction, dt,
