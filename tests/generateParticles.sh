@@ -190,6 +190,30 @@ sed -i 's/\(ice.*\)unit mm/\1unit cm/' system/particleDict
 refused "two units of one file" "An earlier zone reads the same file in mm" "ice.unit at line 1"
 dict 'file "constant/two.geo"; unit mm; faces (1 99);'
 refused "no such face" "has no face 99" "1 to 11"
+# In 2D the bodies of a file are cut half-way up, wherever they lie along z
+for z in "0 1" "1 3" "-0.5 0.5"; do
+    set -- $z
+    cat > constant/hole.geo <<END
+SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, $1, 20, 10};
+Disk(2) = {10, 5, $1, 2};
+BooleanDifference(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };
+Extrude {0, 0, $2 - ($1)} { Surface{3}; }
+END
+    echo 'dx 1e-3; nDims 2; zones { water { phase fluid; file "constant/hole.geo"; unit mm; } }' > system/particleDict
+    generateParticles > out 2>&1 && grep -q '^water  *0.0001874[0-9]*  *187 ' out || fail "2D from a file, z $z: $(tail -n 8 out)"
+done
+sed -i '/Extrude/d' constant/hole.geo
+refused "flat file in 2D" "hole.geo is flat" "along z"
+# Faces of shapes are named by boxes
+echo "walls { type wall; } lid { type wall; }" > constant/boundary
+dict 'shape box; min (0 0 0); max (0.01 0.01 0.01);' 1e-3 'patches { lid { box ((-1 -1 0.0099) (1 1 1)); } }'
+generateParticles > out 2>&1 && [ "$(grep -c "facet normal 0 0 1" constant/triSurface/lid.stl)" = "$(grep -c "facet normal" constant/triSurface/lid.stl)" ] &&
+    [ "$(grep -c "facet normal" constant/triSurface/walls.stl)" -ge 10 ] || fail "a box's lid: $(tail -n 8 out)"
+sed -i 's/0.0099/0.1/' system/particleDict
+refused "no face of a shape" "No face has the box" "chosen by a box"
+echo "walls { type wall; }" > constant/boundary
+
 # One file per part, and a patch of one of them
 echo "end { type wall; }" >> constant/boundary
 cube

@@ -131,8 +131,8 @@ scalar displacement(scalar t)
 
 TEST_CASE("what a plunger sweeps leaves the channel")
 {
-    for (const char* coupling : {"projection", "monolithic"})
-        for (const char* kind : {"mirror", "particles"})
+    for (const word coupling : {"projection", "monolithic"})
+        for (const word kind : {"mirror", "particles"})
         {
             CAPTURE(coupling);
             CAPTURE(kind);
@@ -161,7 +161,7 @@ TEST_CASE("what a plunger sweeps leaves the channel")
 
 TEST_CASE("fluid between slip walls moves with its plunger as one, in and out")
 {
-    for (const char* coupling : {"projection", "monolithic"})
+    for (const word coupling : {"projection", "monolithic"})
     {
         CAPTURE(coupling);
         caseOnDisk files("plug");
@@ -196,7 +196,7 @@ TEST_CASE("fluid between slip walls moves with its plunger as one, in and out")
 
 TEST_CASE("a plunger and a force along the open face: no jet inwards feeds itself in ten periods")
 {
-    for (const char* coupling : {"projection", "monolithic"})
+    for (const word coupling : {"projection", "monolithic"})
     {
         CAPTURE(coupling);
         caseOnDisk files("backflow");
@@ -260,8 +260,8 @@ loss afterTenReversals(const word& coupling, const word& kind, const word& solut
 
 TEST_CASE("ten reversals of a plunger between walls")
 {
-    for (const char* coupling : {"projection", "monolithic"})
-        for (const char* kind : {"mirror", "particles"})
+    for (const word coupling : {"projection", "monolithic"})
+        for (const word kind : {"mirror", "particles"})
         {
             CAPTURE(coupling);
             CAPTURE(kind);

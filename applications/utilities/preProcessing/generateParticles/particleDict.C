@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "particleDict.H"
 
-#include "faceSelector.H"
 #include "fileNames.H"
 #include "shapes.H"
 #include "surfaceTopology.H"
@@ -60,6 +59,7 @@ particleDict::particleDict(const word& caseFolder)
     weldTolerance_ = dict_.getInRangeOrDefault("weldTolerance", 0, 0.5 * dx, 1e-3 * dx);
     defaultPatch_ = dict_.getOrDefault<word>("defaultPatch", "walls");
     readBoundary();
+    readPatches();
 }
 
 void particleDict::readBoundary()
@@ -115,8 +115,7 @@ const cadModel& particleDict::model(const dictionary& dict)
     }
 }
 
-// Writes the patch asked for into each face's surface
-void particleDict::namePatches(cadModel& model)
+void particleDict::readPatches()
 {
     const dictionary patches = dict_.subOrEmptyDict("patches");
     List<word> valid;
@@ -126,24 +125,44 @@ void particleDict::namePatches(cadModel& model)
         if (std::find(valid.begin(), valid.end(), name) == valid.end())
             patches.fail(
                 name, "constant/boundary has no patch " + name + ". " + validWords("name", valid));
-        const faceSelector selector(patches.subDict(name));
-        if (!selector.any()) patches.fail(name, "Say which faces: colour, faces, group or box");
+        selectors_.emplace_back(name, faceSelector(patches.subDict(name)));
+        if (!selectors_.back().second.any())
+            patches.fail(name, "Say which faces: colour, faces, group or box");
+    }
+}
+
+// Writes the patch asked for into each face's surface
+void particleDict::namePatches(cadModel& model)
+{
+    for (const auto& [name, selector] : selectors_)
         for (cadFace& face : model.faces)
             if (selector.matches(face))
                 face.surface.patchNames = {name}, foundPatches_.insert(name);
-    }
+}
+
+// The triangles of a shape have no face, colour or group: only boxes name them
+void particleDict::namePatches(triSurface& shape)
+{
+    for (const auto& [name, selector] : selectors_)
+        for (label t = 0; t < shape.size(); ++t)
+        {
+            boundBox b;
+            for (int k = 0; k < 3; ++k) b.add(shape.corner(t, k));
+            if (nDims == 2) b.min[2] = b.max[2] = 0;
+            if (selector.holds(b))
+                shape.patch[t] = shape.addPatch(name), foundPatches_.insert(name);
+        }
 }
 
 void particleDict::checkPatchesFound() const
 {
-    if (models_.empty()) return;
-    const dictionary patches = dict_.subOrEmptyDict("patches");
-    List<word> files;
-    for (const auto& [file, model] : models_) files.push_back(file + " has " + facesOf(model));
-    for (const word& name : patches.dictKeys())
+    List<word> where;
+    for (const auto& [file, model] : models_) where.push_back(file + " has " + facesOf(model));
+    if (where.empty()) where.push_back("the faces of shapes are chosen by a box that holds them");
+    for (const auto& [name, selector] : selectors_)
         if (!foundPatches_.count(name))
-            patches.fail(name, "No face has " + faceSelector(patches.subDict(name)).describe() +
-                                   "; " + join(files, ", "));
+            dict_.subDict("patches").fail(
+                name, "No face has " + selector.describe() + "; " + join(where, ", "));
 }
 
 // Faces in the plane of a flat patch belong to it without being named
@@ -200,11 +219,23 @@ List<body> particleDict::cadBodies(const word& zone, const dictionary& dict)
     return bodies;
 }
 
+// Two dimensions are the plane z = 0
+void particleDict::cutHalfWay(const word& file, triSurface& s) const
+{
+    const boundBox box = s.bounds();
+    if (box.max[2] - box.min[2] < 1e-6 * dx)
+        throw fatalError(file +
+                         " is flat. In two dimensions a file's bodies are cut half-way up: "
+                         "give them a height along z, any will do");
+    for (vector& x : s.nodes) x[2] -= 0.5 * (box.min[2] + box.max[2]);
+}
+
 body particleDict::cadBody(const word& zone, const cadModel& cad, const List<label>& faces,
                            scalar volume) const
 {
     body b{-1, {}, volume};
     for (const label tag : faces) b.surface.append(cad.face(tag).surface);
+    if (nDims == 2) cutHalfWay(cad.path, b.surface);
     b.surface.weld(weldTolerance_);
     orientOutward(b.surface);
     const scalar meshed = b.surface.volume();
@@ -221,6 +252,7 @@ body particleDict::shapeBody(const dictionary& dict)
 {
     body b{-1, makeShape(dict, dx, nDims), 0};
     b.volume = nDims == 3 ? shapeVolume(dict) : 0;
+    namePatches(b.surface);
     return b;
 }
 
