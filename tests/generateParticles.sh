@@ -234,6 +234,12 @@ refused "colour beside blue" "with the colours (0 0 255) "
 head -c 71000 "$geometry/hccB.igs" > constant/cut.igs
 dict 'file "constant/cut.igs";' 5e-3
 refused "IGES without its end" "cut.igs is cut off"
+gmsh -2 -save_all -format msh41 -clmax 3 -o constant/whole.msh constant/two.geo > /dev/null
+dict 'file "constant/whole.msh"; unit mm; group ice;'
+generateParticles > out 2>&1 && grep -q '^water .* 500  *+0.00' out || fail "a mesh file: $(tail -n 8 out)"
+head -c $(($(stat -c %s constant/whole.msh) * 8 / 10)) constant/whole.msh > constant/cut.msh
+dict 'file "constant/cut.msh"; unit mm; group ice;'
+refused "mesh file without its end" "cut.msh is cut off"
 cube 1
 dict "$stl"
 refused "leaky surface" "not closed" "water"

@@ -265,19 +265,23 @@ scalar unitInMetres(const word& unit)
 namespace
 {
 
-// OpenCASCADE takes what there is of a file; the formats that say where they end are looked at
+// OpenCASCADE and gmsh take what there is of a file; the formats that say where they end are looked at
 void checkWhole(const word& path, const word& type)
 {
-    const bool iges = type == ".igs" || type == ".iges", step = type == ".stp" || type == ".step";
-    if (!iges && !step) return;
+    const bool iges = type == ".igs" || type == ".iges", step = type == ".stp" || type == ".step",
+               msh = type == ".msh";
+    if (!iges && !step && !msh) return;
     const word text = readText(path);
     const size_t end = text.find_last_not_of(" \r\n\t");
     const word last = end == word::npos ? "" : text.substr(text.find_last_of('\n', end) + 1);
-    const bool whole =
-        iges ? last.size() > 72 && last[72] == 'T' : last.find("END-ISO-10303-21;") != word::npos;
+    const bool whole = iges   ? last.size() > 72 && last[72] == 'T'
+                       : step ? last.find("END-ISO-10303-21;") != word::npos
+                              : last.rfind("$End", 0) == 0;
     if (!whole)
         throw fatalError("The file " + path + " is cut off: its last line should " +
-                         (iges ? "have a T in column 73" : "be END-ISO-10303-21;"));
+                         (iges   ? "have a T in column 73"
+                          : step ? "be END-ISO-10303-21;"
+                                 : "begin with $End"));
 }
 
 }  // namespace
