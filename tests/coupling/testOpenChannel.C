@@ -115,6 +115,20 @@ void write(const scenario& s, caseOnDisk& files)
     writeSTL(s.right.surface, files.path() + "/constant/triSurface/right.stl");
 }
 
+struct running
+{
+    caseOnDisk files{"openChannel"};
+    capturedLog log;
+    Time time;
+    fsiCase c;
+    std::unique_ptr<couplingScheme> scheme;
+
+    explicit running(const scenario& s)
+        : time((write(s, files), files.path())), c(time), scheme(couplingScheme::New(c))
+    {
+    }
+};
+
 // Particles between the faces, counted smoothly across them
 scalar inChannel(const scenario& s, const particleCloud& cloud)
 {
@@ -137,17 +151,13 @@ void check(const scenario& s, scalar dt, int steps)
 {
     CAPTURE(s.coupling);
     CAPTURE(s.kind);
-    caseOnDisk files("openChannel");
-    write(s, files);
-    capturedLog log;
-    Time time(files.path());
-    fsiCase c(time);
-    const auto scheme = couplingScheme::New(c);
+    running r(s);
+    fsiCase& c = r.c;
     const scalar before = inChannel(s, c.cloud);
     scalar gap = 0, way = 0;  // [dx]
     for (int step = 0; step < steps; ++step)
     {
-        runSteps(c, *scheme, dt, 1);
+        runSteps(c, *r.scheme, dt, 1);
         scalar u = 0;
         for (label i = 0; i < c.cloud.n(); ++i) u += c.cloud.Up[i][0] / c.cloud.n();
         way += dt * std::abs(u) / dx;
@@ -168,18 +178,14 @@ void checkReversals(scenario s)
 // Mean velocity along the channel over that of Poiseuille flow, once steady
 scalar steadyFlow(const scenario& s, scalar pressure, scalar dt)
 {
-    caseOnDisk files("openPoiseuille");
-    write(s, files);
-    capturedLog log;
-    Time time(files.path());
-    fsiCase c(time);
-    const auto scheme = couplingScheme::New(c);
+    running r(s);
+    fsiCase& c = r.c;
     const scalar tau = 1000 * height * height / (s.mu * M_PI * M_PI);
-    runSteps(c, *scheme, dt, label(5 * tau / dt));
+    runSteps(c, *r.scheme, dt, label(5 * tau / dt));
     scalar sum = 0, n = 0;
     for (int k = 0; k < 10; ++k)
     {
-        runSteps(c, *scheme, dt, label(0.05 * tau / dt) + 1);
+        runSteps(c, *r.scheme, dt, label(0.05 * tau / dt) + 1);
         for (label i = 0; i < c.cloud.n(); ++i)
             if (const scalar x = c.cloud.x[i][0]; x > 0 && x < length) sum += c.cloud.Up[i][0], ++n;
     }
