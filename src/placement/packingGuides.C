@@ -25,6 +25,7 @@ packingGuides::packingGuides(const zoneGeometry& geometry, const exterior& outsi
 
 void packingGuides::move(packedParticle& p, vector by, bool exactly) const
 {
+    if (p.fixed) return;
     const scalar length = by.norm(), most = longestMove * geometry_.dx();
     if (length > most) by *= most / length;
     if (geometry_.nDims() == 2) by[2] = 0;

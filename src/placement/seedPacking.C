@@ -152,7 +152,43 @@ public:
         return total;
     }
 
+    // Where the particles behind walls come to an end, within a kernel's reach along their surface, nothing
+    // would hold them against those that push from within: the wall would lose 3 % of them
+    bool endsBeside(const packedParticle& p) const
+    {
+        const bool flat = geometry_.nDims() == 2;
+        const vector a = flat ? vector(-p.normal[1], p.normal[0], 0) : p.normal.unitOrthogonal(),
+                     b = p.normal.cross(a);
+        for (int k = 0; k < 8; k += flat ? 4 : 1)
+        {
+            const vector along = std::cos(k * M_PI / 4) * a + std::sin(k * M_PI / 4) * b;
+            if (isNothing(p.x + 1.25 * dx_ * along) || isNothing(p.x + 2.5 * dx_ * along))
+                return true;
+        }
+        return false;
+    }
+
 private:
+    bool isNothing(const vector& x) const
+    {
+        if (geometry_.beyondSymmetry(x) >= 0 || geometry_.zoneAt(x) >= 0) return false;
+        return !isSwept(centreOf((x / dx_).array().floor())) ||
+               guides_.outside().at(x).type == exteriorPoint::kind::nothing;
+    }
+
+    vector centreOf(const vector& cell) const
+    {
+        vector centre = dx_ * (cell + vector::Constant(0.5));
+        if (geometry_.nDims() == 2) centre[2] = 0;
+        return centre;
+    }
+
+    bool isSwept(const vector& centre) const
+    {
+        const scalar reach = std::max(guides_.outside().wallThickness(), 0.5 * thinBelow * dx_);
+        return nearSurface(centre, reach + dx_);
+    }
+
     bool nearSurface(const vector& x, scalar radius) const
     {
         for (const surfaceSearch* s : surfaces_)
@@ -162,11 +198,8 @@ private:
 
     void cell(std::int64_t i, std::int64_t j, std::int64_t k, bandSamples& out) const
     {
-        vector centre = dx_ * vector(i + 0.5, j + 0.5, k + 0.5);
-        if (geometry_.nDims() == 2) centre[2] = 0;
-        const scalar reach = std::max(guides_.outside().wallThickness(), 0.5 * thinBelow * dx_);
-        if (geometry_.beyondSymmetry(centre) < dx_ && nearSurface(centre, reach + dx_))
-            samplesOf(i, j, k, out);
+        const vector centre = centreOf(vector(i, j, k));
+        if (geometry_.beyondSymmetry(centre) < dx_ && isSwept(centre)) samplesOf(i, j, k, out);
     }
 
     void samplesOf(std::int64_t i, std::int64_t j, std::int64_t k, bandSamples& out) const
@@ -271,7 +304,8 @@ List<packedParticle> seedPacking(const packingGuides& guides, label stripLayers,
 
     List<packedParticle> seeds;
     List<label> inBands(geometry.zones().size(), 0);
-    for (const auto& [key, samples] : sweeper(guides, bands).all())
+    const sweeper sweep(guides, bands);
+    for (const auto& [key, samples] : sweep.all())
     {
         // A band of another width holds its share of the volume closer together, or further apart
         List<vector> x;
@@ -305,6 +339,7 @@ List<packedParticle> seedPacking(const packingGuides& guides, label stripLayers,
         if (p.where == place::strip) p.guard = guides.wallBeside(p.x);
         guides.hold(p, vector::Zero(), true);
         p.seed = p.x;
+        p.fixed = p.where != place::zone && sweep.endsBeside(p);
     }
     return seeds;
 }
