@@ -218,6 +218,13 @@ bool boundary::nearOpen(label i) const
     return false;
 }
 
+bool boundary::reachesBeyondOpen(label i, scalar reach) const
+{
+    for (const openFace& face : content_->openFaces)
+        if (face.reachesBeyond(i, reach)) return true;
+    return false;
+}
+
 const List<patchBalance>& boundary::balance() const
 {
     return content_->balance;

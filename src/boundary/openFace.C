@@ -64,8 +64,13 @@ bool openFace::beyondStrip(const vector& x) const
 
 bool openFace::near(label i) const
 {
+    return reachesBeyond(i, depth_ + 0.6 * dx_);
+}
+
+bool openFace::reachesBeyond(label i, scalar reach) const
+{
     const surfaceFoot& f = known_[i].foot;
-    return f.found && f.depth > -0.6 * dx_;
+    return f.found && f.depth + reach > depth_;
 }
 
 }  // namespace ispf

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace ispf
 {
@@ -58,13 +59,16 @@ void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
     });
 }
 
-// The velocity close before the surface, by feet on it
+// The velocity close before the surface, by feet on it: a mean, and the mean of what it missed (twicing, Tukey
+// 1977, Exploratory Data Analysis).  Alone a mean is too fast beside walls, and the strip carries 1 to 2 %
+// more than the fluid before it: the one thins out, the other thickens
 struct openFace::velocityBefore
 {
     const particleCloud& cloud;
     scalar radius;
     pointGrid feet;
     List<label> index;
+    List<vector> value;
 
     velocityBefore(const openFace& face, const particleCloud& c)
         : cloud(c), radius(1.5 * face.dx_), feet(radius)
@@ -72,15 +76,27 @@ struct openFace::velocityBefore
         for (label i = cloud.nSolid(); i < cloud.n(); ++i)
             if (const surfaceFoot& f = face.known_[i].foot;
                 f.found && f.depth <= 0 && f.depth > -face.depth_)
-                feet.add(f.foot), index.push_back(i);
+                feet.add(f.foot), index.push_back(i), value.push_back(cloud.Up[i].xyz());
+        List<vector> twice(value.size());
+        parallelFor(
+            label(value.size()),
+            [&](label begin, label end) {
+                for (label k = begin; k < end; ++k)
+                {
+                    vector once = value[k];
+                    mean(face.known_[index[k]].foot.foot, cloud.zone[index[k]], once);
+                    twice[k] = 2 * value[k] - once;
+                }
+            },
+            256);
+        value = std::move(twice);
     }
 
     void mean(const vector& foot, std::uint8_t zone, vector& u) const
     {
         weightedMean<vector> sum;
         feet.within(foot, radius, [&](label k, scalar r) {
-            const label j = index[k];
-            sum.add(cloud.Up[j].xyz(), weight(r / radius), cloud.zone[j] == zone);
+            sum.add(value[k], weight(r / radius), cloud.zone[index[k]] == zone);
         });
         sum.get(u);
     }

@@ -209,7 +209,8 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     if (c_.structure) system_.setup(dt, volume_.get(), &surface_, &K_);
     else system_.setup(dt, nullptr, nullptr, nullptr);
     if (density_.on())
-        density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, system_.enclosed().bodyOf()));
+        density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, system_.enclosed().bodyOf()),
+                       [&](label i) { return c_.isCut(i); });
     system_.enclosed().addDefect(q);
     preconditioner_.setup();
     system_.rightHandSide(theta_, springForce_, q, b);

@@ -127,7 +127,8 @@ void projection::solve(const stencil& s, scalar dt)
     List<scalar> q = sources();
     q.resize(cloud.n(), 0);
     if (density_.on())
-        density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, closedBodies(cloud, c_.list)));
+        density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, closedBodies(cloud, c_.list)),
+                       [&](label i) { return c_.isCut(i); });
     step_.predict(cloud, s, accelerations(), dt);
     hydrostatic_.take(cloud);
     step_.project(cloud, s, q, c_.kernel->support(), dt);

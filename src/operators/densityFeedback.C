@@ -35,14 +35,6 @@ scalar disorderExcess(const smoothingKernel& kernel, int nDims, scalar dx)
            std::pow(dx, nDims);
 }
 
-// Does the row see a particle beyond an open face?
-bool besideOpenFace(const particleCloud& cloud, const neighbourList& list, label i)
-{
-    for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
-        if (cloud.pFixed[cloud.ownerOf(list.index[k])]) return true;
-    return cloud.pFixed[i];
-}
-
 // Work space of a thread
 struct row
 {
@@ -67,7 +59,7 @@ scalar kernelSum(const particleCloud& cloud, const neighbourList& list,
     return cloud.volume() * sum;
 }
 
-// Kernel sums s of those particles of which isOf(i) is true and that are not beside open faces
+// Kernel sums s of those particles of which isOf(i) is true
 struct density
 {
     label n = 0;
@@ -82,8 +74,7 @@ struct density
         parallelFor(nFluid, [&](label begin, label end) {
             row r;
             for (label k = begin; k < end; ++k)
-                if (isOf(first + k) && !besideOpenFace(cloud, list, first + k))
-                    s[k] = kernelSum(cloud, list, kernel, first + k, r);
+                if (isOf(first + k)) s[k] = kernelSum(cloud, list, kernel, first + k, r);
         });
         for (const scalar v : s) mean += v, n += v > 0;
         mean /= n;
@@ -106,7 +97,8 @@ densityFeedback::densityFeedback(const dictionary& solution, const smoothingKern
 {
 }
 
-void densityFeedback::addTo(List<scalar>& q, const neighbourList& list, const List<char>& drained)
+void densityFeedback::addTo(List<scalar>& q, const neighbourList& list, const List<char>& drained,
+                            const std::function<bool(label)>& isCut)
 {
     added_ = 0;
     const scalar rate = constant_ * cloud_.maxSpeed() / cloud_.dx;
@@ -117,7 +109,8 @@ void densityFeedback::addTo(List<scalar>& q, const neighbourList& list, const Li
     for (label z = 0; z < label(cloud_.zones.size()); ++z)
     {
         if (cloud_.zones[z].phase != phaseType::fluid) continue;
-        const density s(cloud_, list, kernel_, [&](label i) { return isOf(i, z); });
+        const density s(cloud_, list, kernel_,
+                        [&](label i) { return isOf(i, z) && !cloud_.pFixed[i] && !isCut(i); });
         if (s.n < fewest) continue;
         const scalar source = rate * ((s.mean - k_ * s.variance) / latticeSum_ - 1);
         for (label i = cloud_.nSolid(); i < cloud_.n(); ++i)

@@ -108,3 +108,32 @@ TEST_CASE("the strip follows the fluid before it, of its own zone where there is
     CHECK(strip(5.5)[2] == relative(1, 1e-12));
     CHECK(strip(9.5)[2] == relative(2, 1e-12));
 }
+
+TEST_CASE("the strip carries as much of Poiseuille's flow as the fluid before it")
+{
+    column c(0);
+    c.b->setFlags(c.cloud, rho, {});
+    const auto flow = [&](const auto& isOf) {
+        scalar sum = 0, n = 0;
+        for (label i = 0; i < c.cloud.n(); ++i)
+            if (isOf(c.depth(i))) sum += c.cloud.Up[i][2], ++n;
+        return sum / n;
+    };
+    for (label i = 0; i < c.cloud.n(); ++i)
+        c.cloud.Up[i] = vec4::from({0, 0, c.cloud.x[i][0] * (12 - c.cloud.x[i][0])});
+    c.b->setOpenVelocity(c.cloud, List<vec4>(c.cloud.n(), vec4{}), rho, dt);
+    const scalar before = flow([](scalar depth) { return depth < 0; });
+    CHECK(flow([](scalar depth) { return depth > 0; }) == relative(before, 0.001));
+}
+
+TEST_CASE("near an open face: 0.6 dx before it; beyond its strip there is nothing")
+{
+    column c(0);
+    c.b->setFlags(c.cloud, rho, {});
+    for (label i = 0; i < c.cloud.n(); ++i)
+    {
+        CHECK(c.b->nearOpen(i) == (c.depth(i) > -0.6));
+        CHECK(c.b->reachesBeyondOpen(i, 1.9) == (c.depth(i) > 0.1));
+        CHECK(c.b->reachesBeyondOpen(i, 3) == (c.depth(i) > -1));
+    }
+}
