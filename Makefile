@@ -89,7 +89,6 @@ $(foreach a,$(patsubst %/,%,$(APPS)),$(eval $(call PROGRAM,$(a))))
 
 define TEST
 OBJ_test_$(1) := $$(patsubst %.C,$(B)/%.o,$$(wildcard tests/$(1)/*.C))
-$$(OBJ_test_$(1)): | testPackages
 $$(OBJ_test_$(1)): INC = $$(call quoted,$$(if $$(filter $(1),$$(LIBS)),$$(call ordered,$(1)),$$(LIBS))) -iquote tests $$(addprefix -iquote ,$$(filter %/$(1)/,$$(APPS)))
 $(B)/testPrograms/$(1): $$(OBJ_test_$(1)) $$(filter-out %/$(1).o,$$(OBJ_app_$(1))) $$(if $$(filter $(1),$$(LIBS)),$$(call archivesOf,$(1)),$$(call archives))
 	@mkdir -p $$(@D); echo "LD   $$@"
@@ -103,6 +102,9 @@ testPackages: # lists what is missing and asks, as the demo does
 	@{ echo '#include <doctest/doctest.h>' | $(CXX) -E -x c++ - && command -v h5dump && command -v gmsh; } \
 	    > /dev/null 2>&1 || bin/installDependencies run test
 $(foreach t,$(TESTS),$(eval $(call TEST,$(t))))
+ifneq ($(filter test testPrograms,$(MAKECMDGOALS)),)
+$(OBJECTS): | testPackages
+endif
 
 $(B)/%.o: %.C Makefile
 	@mkdir -p $(@D); echo "CXX  $<"

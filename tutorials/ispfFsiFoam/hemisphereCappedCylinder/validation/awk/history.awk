@@ -2,8 +2,7 @@
 # What the histories say.  Variables: period, top (time of the full stroke within it) [s]; stroke [m3];
 # rest, the cavity's volume, and wall, the solid's [m3].
 # Input: diameter.dat (time, dD/D), volume.dat (time, swept, cavity, openNet, wall, control, wallFeedback, defect,
-# wallDefect),
-# pressure.dat (time, p/G)
+# wallDefect, fluidFeedback), pressure.dat (time, p/G)
 function abs(a) { return a < 0 ? -a : a }
 function say(name, value) { printf "%s %.6g\n", name, value }
 FNR == 1 { file = FILENAME; sub(/.*\//, "", file); sub(/\.dat$/, "", file) }
@@ -35,8 +34,8 @@ function largestLess(file, column, other,    i, v, most) {
 }
 # The ledger in row k and the cavity's defect [% of the stroke], as it is and less what control has put in
 function ledger(when, name, k,    c, title) {
-    split("time swept cavity openNet wall control wallFeedback defect wallDefect", title, " ")
-    for (c = 2; c <= 9; ++c) say(when "." title[c], 100*row["volume", k, c]/stroke)
+    split("time swept cavity openNet wall control wallFeedback defect wallDefect fluidFeedback", title, " ")
+    for (c = 2; c <= 10; ++c) say(when "." title[c], 100*row["volume", k, c]/stroke)
     say(name, 100*(row["volume", k, 3] - row["volume", k, 2])/stroke)
     say("own." name, 100*(row["volume", k, 3] - row["volume", k, 2] - row["volume", k, 6])/stroke)
 }

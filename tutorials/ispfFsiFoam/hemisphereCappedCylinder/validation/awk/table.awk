@@ -53,6 +53,7 @@ function ledger() {
     ledgerRow("injected by the wall's volume feedback", "wallFeedback")
     ledgerRow("made good of the divergence's defect", "defect")
     ledgerRow("made good of the wall's, as it turns", "wallDefect")
+    ledgerRow("put into fluid that open faces drain", "fluidFeedback")
     printf "%-50s %13s  %13s\n", "cavity - plunger", share("volumeDefectPeak"), share("volumeDefectEnd")
     printf "%-50s %13s  %13s\n", "cavity - plunger - control: left to itself", share("own.volumeDefectPeak"), share("own.volumeDefectEnd")
 }

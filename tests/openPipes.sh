@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# A pressure drives fluid through pipes to and fro, ten times, through faces flat, oblique and curved: each keeps its
+# volume within 0.5 %, as the mean of the last period.  Prints what it is
+set -uo pipefail
+. "$(dirname "$0")/cases/functions"
+cd "$scratch" || exit 1
+mkdir system constant
+echo "coupling monolithic;" > system/sphSolution
+touch system/sphSchemes
+
+# oscillate name depth period amplitude: depth is that beyond the faces over dx, for awk; five periods
+oscillate() {
+    local name=$1 depth=$2 period=$3 amplitude=$4 t
+    rm -rf 0 0.* [1-9]* postProcessing
+    echo "startTime 0; endTime $(awk -v T="$period" 'BEGIN { print 5*T }'); deltaT $(awk -v T="$period" 'BEGIN { print T/50 }');
+        writeControl timeStep; writeInterval 5;" > system/controlDict
+    echo "$boundary in { type open; p { type sine; amplitude $amplitude; frequency $(awk -v T="$period" 'BEGIN { print 1/T }'); }
+        point (0 0 0); normal (0 0 -1); } out { type open; p 0; }" > constant/boundary
+    place; solved
+    for t in $(ls -d [0-9]* | sort -g); do
+        h5dump -m %.12g -y -w 1 -d /VTKHDF/Points "$t/particles.hdf" | tr -d ' ,' | grep -E '^[-0-9.e+]+$' | paste - - - |
+            awk "{ x = 1e3*\$1; y = 1e3*\$2; z = 1e3*\$3; e = $depth; if (-z > e) e = -z
+                   v = 0.5 - e/3; n += v < 0 ? 0 : v > 1 ? 1 : v } END { print n }"
+    done | awk -v name="$name" 'NR == 1 { first = $1 } { v[NR] = $1 }
+        END { for (k = NR - 9; k <= NR; ++k) sum += v[k]/10; drift = 100*(sum/first - 1)
+              printf "    %s: %+.2f %% after ten reversals, %d records\n", name, drift, NR
+              exit !(NR == 51 && drift < 0.5 && drift > -0.5) }' || fail "$name"
+}
+
+boundary="walls { type wall; }"
+echo "rho 1000; mu 4e-3;" > constant/physicalProperties
+pipe="phase fluid; file \"constant/pipe.geo\"; unit mm;"
+lid() { echo "dx 1e-3; zones { water { $pipe } } patches { out { box (($1) ($2)); } }" > system/particleDict; }
+
+echo 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 18, 6};' > constant/pipe.geo
+lid "-7e-3 -7e-3 17.9e-3" "7e-3 7e-3 18.1e-3"
+oscillate "flat" "z - 18" 0.5 5
+
+# cut at 30 degrees
+echo 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 26, 6};
+Box(2) = {-20, -20, 0, 40, 40, 20}; Rotate { {0, 1, 0}, {0, 0, 0}, Pi/6 } { Volume{2}; }
+Translate { 0, 0, 18 } { Volume{2}; } BooleanDifference { Volume{1}; Delete; } { Volume{2}; Delete; }' > constant/pipe.geo
+lid "-7e-3 -7e-3 14e-3" "7e-3 7e-3 22e-3"
+oscillate "oblique" "x*0.5 + (z - 18)*0.8660254" 0.5 5
+
+# a quarter, the face bulges outwards
+echo 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 28, 8};
+Sphere(2) = {0, 0, 0, 24}; BooleanIntersection { Volume{1}; Delete; } { Volume{2}; Delete; }' > constant/pipe.geo
+lid "-9e-3 -9e-3 22e-3" "9e-3 9e-3 25e-3"
+boundary="$boundary sx { type symmetryPlane; point (0 0 0); normal (-1 0 0); } sy { type symmetryPlane; point (0 0 0); normal (0 -1 0); }"
+echo "rho 1000; mu 0.1;" > constant/physicalProperties
+oscillate "curved" "sqrt(x*x + y*y + z*z) - 24" 0.4 20
+[ $failures = 0 ]
