@@ -142,6 +142,13 @@ refused "name with a blank" "cannot be a name"
 dict 'file "";'
 refused "no file name" "is not known" "water.file at line 1"
 
+# gmsh goes on after what it cannot read in a script; the user would lack a part
+for line in "Box(2) = {20, 0, 0, 10" "Merge \"nothere.step\";" "garbage words;"; do
+    printf 'SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 10, 10, 10};\n%s\n' "$line" > constant/bad.geo
+    dict 'file "constant/bad.geo"; unit mm;'
+    refused "a script with '$line'" "gmsh stumbles" "bad.geo"
+done
+
 # Zones that only touch do not overlap; a spacing that does not divide a box is told
 ring='shape annulus; point1 (0 0 0); point2 (0 0 0.02); innerRadius 4e-3; outerRadius 6e-3;'
 echo "dx 1e-3; placement lattice; zones { ring { phase solid; $ring } lumen { phase fluid; shape cylinder;

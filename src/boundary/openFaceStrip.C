@@ -159,7 +159,7 @@ struct openFace::slopeBefore
     }
 };
 
-// The strip takes the mean velocity of 1.5 dx before the surface.  Over a wider reach the flow along the surface
+// The strip takes the velocity before the surface, averaged over 1.5 dx along it.  Over a wider reach the flow along the surface
 // would run into a wall or away from it: nothing in the strip holds it back
 void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, scalar rho,
                             scalar dt) const

@@ -8,13 +8,9 @@ namespace ispf
 
 particleField::particleField(const particleCloud& cloud, const word& name,
                              const fileLocation& where)
-    : name_(name)
+    : cloud_(cloud), name_(name), isVector_(name == "U" || cloud.vectors.count(name) > 0)
 {
-    if (const auto s = cloud.scalars.find(name); s != cloud.scalars.end()) scalars_ = &s->second;
-    if (const auto v = cloud.vectors.find(name); v != cloud.vectors.end())
-        fours_ = &v->second, isVector_ = true;
-    if (name == "U" || name == "p") fours_ = &cloud.Up, isVector_ = name == "U";
-    if (scalars_ || fours_) return;
+    if (isVector_ || name == "p" || cloud.scalars.count(name) > 0) return;
     List<word> valid = {"U", "p"};
     for (const auto& s : cloud.scalars) valid.push_back(s.first);
     for (const auto& v : cloud.vectors) valid.push_back(v.first);

@@ -2,6 +2,7 @@
 // probes, lineProfile, minMax, patchFlux
 #include "core/errorOf.H"
 #include "roundSurfaces.H"
+#include "particleFields.H"
 #include "testCase.H"
 #include "relative.H"
 
@@ -238,4 +239,15 @@ TEST_CASE("patchFlux of a boundary patch: from its books, out is positive")
     t.functions = "q { type patchFlux; patch lit; }";
     auto wrong = t.start();
     CHECK_ERROR(functionObjectList(*wrong.c), "There is no patch 'lit'. Valid patches are: lid", 0);
+}
+
+TEST_CASE("a field is found again after the cloud has been assigned, as where a step is taken back")
+{
+    particleCloud cloud;
+    for (const char* name : {"a", "b", "c"}) cloud.scalars[name] = {scalar(name[0])};
+    const particleField c(cloud, "c", fileLocation());
+    const particleCloud before = cloud;
+    cloud = before;
+    CHECK(c.at(0) == 'c');
+    CHECK(particleField(cloud, "a", fileLocation()).at(0) == 'a');
 }

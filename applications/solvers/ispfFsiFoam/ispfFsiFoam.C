@@ -46,7 +46,9 @@ int run(const argList& args)
         const scalar t0 = time.value();
         time.setDeltaT(chooseDeltaT(time, limit));
         ++time;
-        info() << "deltaT = " << str(time.deltaT()) << "\nTime = " << time.timeName() << "\n\n";
+        const word rule = limit.rule + " limit " + str(limit.dt, 3) + " s";
+        info() << "Step: " << rule << "\ndeltaT = " << str(time.deltaT())
+               << "\nTime = " << time.timeName() << "\n\n";
 
         coupling->step(t0, time.deltaT());
         ledger.update(time.deltaT());
@@ -56,7 +58,7 @@ int run(const argList& args)
 
         info() << "ExecutionTime = " << str(time.elapsedCpuTime(), 4)
                << " s  ClockTime = " << str(time.elapsedClockTime(), 4) << " s\n\n";
-        bar.update(limit.rule + " limit " + str(limit.dt, 3) + " s");
+        bar.update(rule);
     }
     functions.end();
     info() << "End\n";

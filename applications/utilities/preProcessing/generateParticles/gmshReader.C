@@ -94,6 +94,15 @@ void check(bool ok, const word& what)
     throw fatalError(what + (reason.empty() ? word() : ": " + reason));
 }
 
+// A script goes on after a line that it cannot read or a file that is not there
+void checkScript(const word& path)
+{
+    std::string error;
+    gmsh::logger::getLastError(error);
+    if (std::filesystem::path(path).extension() == ".geo" && !error.empty())
+        throw fatalError("gmsh stumbles over it: " + error);
+}
+
 void openFile(const word& path, scalar meshSize)
 {
     gmsh::initialize();
@@ -104,6 +113,7 @@ void openFile(const word& path, scalar meshSize)
     gmsh::option::setNumber("Mesh.CharacteristicLengthFromCurvature", 1);
     gmsh::option::setNumber("Mesh.MinimumElementsPerTwoPi", 36);
     gmsh::open(path);
+    checkScript(path);
     gmsh::vectorpair surfaces;
     gmsh::model::getEntities(surfaces, 2);
     check(!surfaces.empty(), "the file holds no surface");
