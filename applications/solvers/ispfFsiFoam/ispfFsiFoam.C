@@ -46,8 +46,9 @@ int run(const argList& args)
         const scalar t0 = time.value();
         time.setDeltaT(chooseDeltaT(time, limit));
         ++time;
-        const word rule = limit.rule + " limit " + str(limit.dt, 3) + " s";
-        info() << "Step: " << rule << "\ndeltaT = " << str(time.deltaT())
+        const word rule =
+            limit.rule + " limit" + (limit.dt < 1e29 ? " " + str(limit.dt, 3) + " s" : "");
+        info() << "Step size: " << rule << "\ndeltaT = " << str(time.deltaT())
                << "\nTime = " << time.timeName() << "\n\n";
 
         coupling->step(t0, time.deltaT());
