@@ -128,7 +128,7 @@ refused "flat ellipsoid" "Each of the semiAxes must lie between"
 shape "box; min (0 0 0); max (10 10 10);"
 refused "too many particles" "room for 1e+12 particles"
 shape "$box" "stripLayers -2;"
-refused "strip" "'stripLayers' is -2, but must lie between 1 and 100"
+refused "strip" "'stripLayers' is -2, but must lie between 2 and 100"
 shape "$box" "weldTolerance 1;"
 refused "weld" "'weldTolerance' is 1, but must lie between 0 and 0.0005"
 shape "$box" "surfaceSize -1;"
@@ -258,6 +258,14 @@ refused "IGES without its end" "cut.igs is cut off"
 gmsh -2 -save_all -format msh41 -clmax 3 -o constant/whole.msh constant/two.geo > /dev/null
 dict 'file "constant/whole.msh"; unit mm; group ice;'
 generateParticles > out 2>&1 && grep -q '^water .* 500  *+0.00' out || fail "a mesh file: $(tail -n 8 out)"
+# BREP has no unit: mm are taken, and said, where none is given
+gmsh -0 -format brep -o constant/whole.brep constant/two.geo > /dev/null
+for unit in "" "unit mm;" "unit cm;"; do
+    dict "file \"constant/whole.brep\"; $unit box ((0.0099 -1 -1) (1 1 1));" 1e-3
+    [ "$unit" = "unit cm;" ] && dict "file \"constant/whole.brep\"; $unit box ((0.099 -1 -1) (1 1 1));" 1e-2
+    generateParticles > out 2>&1 && grep -q '^water .* 500  *+0.00' out || fail "a .brep file, '$unit': $(tail -n 8 out)"
+    [ -z "$unit" ] && { grep -q 'whole.brep is read in mm' out || fail "a .brep file: nothing said of its unit"; }
+done
 head -c $(($(stat -c %s constant/whole.msh) * 8 / 10)) constant/whole.msh > constant/cut.msh
 dict 'file "constant/cut.msh"; unit mm; group ice;'
 refused "mesh file without its end" "cut.msh is cut off"

@@ -34,7 +34,7 @@ oscillate() {
 boundary="walls { type wall; }"
 echo "rho 1000; mu 4e-3;" > constant/physicalProperties
 pipe="phase fluid; file \"constant/pipe.geo\"; unit mm;"
-lid() { echo "dx 1e-3; zones { water { $pipe } } patches { out { box (($1) ($2)); } }" > system/particleDict; }
+lid() { echo "dx 1e-3; ${3:-} zones { water { $pipe } } patches { out { box (($1) ($2)); } }" > system/particleDict; }
 
 echo 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 18, 6};' > constant/pipe.geo
 lid "-7e-3 -7e-3 17.9e-3" "7e-3 7e-3 18.1e-3"
@@ -42,6 +42,10 @@ oscillate "flat" "z - 18" 0.5 5
 echo "coupling monolithic; densityFeedback 0;" > system/sphSolution
 oscillate "flat, without densityFeedback" "z - 18" 0.5 5 1.5
 echo "coupling monolithic;" > system/sphSolution
+lid "-7e-3 -7e-3 17.9e-3" "7e-3 7e-3 18.1e-3" "stripLayers 4;"
+oscillate "flat, stripLayers 4" "z - 18" 0.5 5
+awk '!/^#/ { exit !($4*$4 < 1e-16) }' postProcessing/volumeLedger/0/volumeLedger.dat ||
+    fail "stripLayers 4: flow is booked in the first step"
 
 # cut at 30 degrees
 echo 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 26, 6};

@@ -3,12 +3,11 @@
 # The short tutorials end with the numbers that they are there for; the cavity coarser than as it stands
 set -uo pipefail
 . "$(dirname "$0")/cases/functions"
-mkdir -p "$scratch/tutorials/ispfFsiFoam"
-ln -s "$cases/../../bin" "$cases/../../etc" "$scratch/"
+export ISPF_DIR=$cases/../..  # they are copies out of the tree
 run() { # tutorial picture [file entry value]...
-    rm -rf "${scratch:?}/tutorials/ispfFsiFoam/$1"
-    cp -r "$cases/../../tutorials/ispfFsiFoam/$1" "$scratch/tutorials/ispfFsiFoam/"
-    cd "$scratch/tutorials/ispfFsiFoam/$1" || exit 1
+    rm -rf "${scratch:?}/$1"
+    cp -r "$ISPF_DIR/tutorials/ispfFsiFoam/$1" "$scratch/"
+    cd "$scratch/$1" || exit 1
     local name=$1 picture=$2; shift 2
     while [ $# -gt 0 ]; do setEntry "$1" "$2" "$3"; shift 3; done
     ./Allclean && ./Allrun > out 2>&1 || fail "$name: $(tail -n 8 out)"

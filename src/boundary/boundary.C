@@ -59,7 +59,8 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
     for (const label index : openIndex)
     {
         const word& name = balance[index].name;
-        openFaces.emplace_back(name, patches.subDict(name), caseFolder, group, cloud);
+        openFaces.emplace_back(name, patches.subDict(name), caseFolder, group, cloud.dx,
+                               sites.stripLayers());
     }
     const auto allowed = [&](const vector& x, scalar distance) {
         for (const openFace& face : openFaces)

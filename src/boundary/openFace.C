@@ -8,18 +8,16 @@ namespace ispf
 {
 
 openFace::openFace(const word& name, const dictionary& dict, const word& caseFolder,
-                   const imageGroup& group, const particleCloud& cloud)
+                   const imageGroup& group, scalar dx, label stripLayers)
     : name_(name),
       where_(dict.where("type")),
-      dx_(cloud.dx),
-      near_(2.5 * cloud.dx),
-      region_(6 * cloud.dx),
-      stripWidth_(
-          dict.getInRangeOrDefault("stripWidth", 0.9 * cloud.dx, 10 * cloud.dx, 1.5 * cloud.dx)),
-      depth_(stripWidth_ + 0.5 * dx_),
+      dx_(dx),
+      near_(2.5 * dx),
+      region_(6 * dx),
+      depth_(stripLayers * dx),
       p_(Function1::New("p", dict, caseFolder)),
       backflow_(dict.getInRangeOrDefault("backflow", 0, 1, 0.5)),
-      spotGrid_(1.5 * cloud.dx)
+      spotGrid_(1.5 * dx)
 {
     const scalar near = std::max(depth_ + dx_, before * dx_),
                  far = std::max(near, openLayer::reach * dx_);

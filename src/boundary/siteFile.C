@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "siteFile.H"
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -20,6 +21,16 @@ siteFile::siteFile(const word& path) : path_(path)
         throw fatalError(path +
                          " needs the integer field 'patch' and the attribute 'patches' with "
                          "the names. Write it anew with generateParticles");
+    if (table.attributes.count("stripLayers"))
+    {
+        const scalar layers = table.scalarAttribute("stripLayers");
+        stripLayers_ = label(std::clamp<scalar>(layers, 0, mostStripLayers + 1));
+        if (stripLayers_ != layers || layers < leastStripLayers || layers > mostStripLayers)
+            throw fatalError(
+                path + ": the attribute stripLayers is " + table.attributes.at("stripLayers") +
+                ", but must be a whole number from " + std::to_string(leastStripLayers) + " to " +
+                std::to_string(mostStripLayers));
+    }
     std::istringstream in(attribute->second);
     List<word> names;
     for (word name; in >> name;) names.push_back(name);

@@ -114,7 +114,7 @@ void volumeLedger::writeLine()
     info() << "volume ledger: swept " << inMm(swept());
     if (cavity_) info() << ", cavity " << inMm(cavityChange()) << ", control " << inMm(controlled_);
     if (c_.structure) info() << ", wall " << inMm(wall) << ", feedback " << inMm(feedback);
-    if (c_.cloud.history.count(fluidFeedback))
+    if (c_.walls->hasOpen() && c_.cloud.history.count(fluidFeedback))
         info() << ", into drained fluid " << inMm(booked(c_, fluidFeedback));
     info() << "\n";
 }

@@ -230,11 +230,11 @@ placedParticles finishPacking(const List<packedParticle>& particles, const zoneG
 }
 
 placedParticles placeBodyFitted(const zoneGeometry& geometry, const exterior& outside,
-                                scalar support, label stripLayers)
+                                scalar support)
 {
     const packingGuides guides(geometry, outside);
     List<label> target;
-    List<packedParticle> particles = seedPacking(guides, stripLayers, target);
+    List<packedParticle> particles = seedPacking(guides, target);
     relaxationSettings settings;
     settings.support = support;
     relaxPacking(particles, guides, target, settings);

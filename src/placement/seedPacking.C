@@ -43,11 +43,8 @@ scalar jitter(std::int64_t i, std::int64_t j, std::int64_t k, int axis)
 class sampler
 {
 public:
-    sampler(const packingGuides& guides, label stripLayers)
-        : guides_(guides),
-          geometry_(guides.geometry()),
-          dx_(geometry_.dx()),
-          stripLayers_(stripLayers)
+    explicit sampler(const packingGuides& guides)
+        : guides_(guides), geometry_(guides.geometry()), dx_(geometry_.dx())
     {
     }
 
@@ -107,7 +104,6 @@ private:
     const packingGuides& guides_;
     const zoneGeometry& geometry_;
     scalar dx_;
-    label stripLayers_;
 };
 
 using bandKey = std::tuple<place, label, label>;  // where, owner, band
@@ -152,8 +148,8 @@ public:
         return total;
     }
 
-    // Where the particles behind walls come to an end, within a kernel's reach along their surface, nothing
-    // would hold them against those that push from within: the wall would lose 3 % of them
+    // Where the particles beyond a surface (behind walls, in strips) come to an end, within a kernel's reach along
+    // it, nothing would hold them against those that push from within: a wall would lose 3 % of them
     bool endsBeside(const packedParticle& p) const
     {
         const bool flat = geometry_.nDims() == 2;
@@ -293,14 +289,13 @@ private:
 
 }  // namespace
 
-List<packedParticle> seedPacking(const packingGuides& guides, label stripLayers,
-                                 List<label>& target)
+List<packedParticle> seedPacking(const packingGuides& guides, List<label>& target)
 {
     const zoneGeometry& geometry = guides.geometry();
     const scalar dx = geometry.dx(), cell = std::pow(dx, geometry.nDims());
     const scalar share =
         std::pow(samplesPerSpacing, -geometry.nDims());  // of a particle, per sample
-    const sampler bands(guides, stripLayers);
+    const sampler bands(guides);
 
     List<packedParticle> seeds;
     List<label> inBands(geometry.zones().size(), 0);

@@ -74,7 +74,7 @@ void writeSurfaces(const word& caseFolder, const zoneGeometry& geometry)
 
 void writeParticleFiles(const word& caseFolder, const zoneGeometry& geometry,
                         const placedParticles& placed, const List<initialFields>& initial,
-                        const List<word>& sources)
+                        const List<word>& sources, label stripLayers)
 {
     particleTable particles = emptyTable(geometry, sources);
     particles.x = placed.x;
@@ -106,6 +106,7 @@ void writeParticleFiles(const word& caseFolder, const zoneGeometry& geometry,
     }
     walls.attributes["patches"] = sites.attributes["patches"] = join(patchNames(geometry));
     sites.attributes["zones"] = particles.attributes["zones"];
+    sites.setAttribute("stripLayers", stripLayers);
 
     std::filesystem::create_directories(caseFolder + "/0");
     // One that an earlier run left would be taken for valid

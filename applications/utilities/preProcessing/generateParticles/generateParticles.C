@@ -26,10 +26,11 @@ int main(int argc, char** argv)
 
         info() << "Placing particles" << std::endl;
         const placedParticles placed =
-            dict.bodyFitted ? placeBodyFitted(geometry, outside, dict.support, dict.stripLayers)
+            dict.bodyFitted ? placeBodyFitted(geometry, outside, dict.support)
                             : placeOnLattice(geometry, outside, dict.origin, dict.support);
         reportPacking(geometry, placed, dict.support);
-        writeParticleFiles(folder, geometry, placed, dict.initial(), dict.sources);
+        writeParticleFiles(folder, geometry, placed, dict.initial(), dict.sources,
+                           dict.stripLayers);
         info() << "End" << std::endl;
         return 0;
     });

@@ -312,8 +312,9 @@ cadModel readCad(const word& path, const cadSettings& settings)
     if (!std::filesystem::exists(path)) throw fatalError("There is no geometry file " + path);
     word type = std::filesystem::path(path).extension().string();
     std::transform(type.begin(), type.end(), type.begin(), [](char c) { return std::tolower(c); });
-    const List<word> declaring = {".igs", ".iges", ".stp", ".step", ".brep"};
-    const List<word> plain = {".geo", ".msh", ".stl"};
+    const List<word> declaring = {".igs", ".iges", ".stp", ".step"};
+    const List<word> plain = {".brep", ".geo", ".msh", ".stl"};
+    word unitName = settings.unit;
     const auto isOne = [&](const List<word>& types) {
         return std::find(types.begin(), types.end(), type) != types.end();
     };
@@ -323,23 +324,33 @@ cadModel readCad(const word& path, const cadSettings& settings)
         valid.insert(valid.end(), plain.begin(), plain.end());
         throw fatalError("The type of " + path + " is not known. " + validWords("type", valid));
     }
-    if (isOne(plain) && settings.unit.empty())
+    if (isOne(declaring))
+    {
+        if (!unitName.empty() && unitName != "mm")
+            throw fatalError("The file " + path + " declares its own unit: remove 'unit " +
+                             unitName + ";'");
+        unitName = "mm";  // gmsh converts
+    }
+    else if (type == ".brep" && unitName.empty())
+    {
+        warning("A .brep file does not say what its numbers mean: " + path +
+                " is read in mm. If that is so, say 'unit mm;'");
+        unitName = "mm";
+    }
+    else if (unitName.empty())
         throw fatalError("A " + type +
                          " file does not say what its numbers mean: give 'unit mm;' or "
                          "whatever it is beside the file " +
                          path);
-    if (isOne(declaring) && !settings.unit.empty() && settings.unit != "mm")
-        throw fatalError("The file " + path + " declares its own unit: remove 'unit " +
-                         settings.unit + ";'");
     checkWhole(path, type);
-    const scalar unit = isOne(declaring) ? 1e-3 : unitInMetres(settings.unit);
+    const scalar unit = unitInMetres(unitName);
     cadModel model;
     if (type == ".stl") model = fromSTL(path, unit);
     else
         model = unpack(runGuarded("Meshing " + path + " with gmsh", settings.timeLimit,
                                   [&] { return meshInChild(path, settings.meshSize / unit); }),
                        unit);
-    model.path = path, model.unit = isOne(declaring) ? "mm" : settings.unit;
+    model.path = path, model.unit = unitName;
     return model;
 }
 
