@@ -39,6 +39,11 @@ lid() { echo "dx 1e-3; ${3:-} zones { water { $pipe } } patches { out { box (($1
 echo 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 18, 6};' > constant/pipe.geo
 lid "-7e-3 -7e-3 17.9e-3" "7e-3 7e-3 18.1e-3"
 oscillate "flat" "z - 18" 0.5 5
+for radius in 3 4; do
+    echo "SetFactory(\"OpenCASCADE\"); Cylinder(1) = {0, 0, 0, 0, 0, 18, $radius};" > constant/pipe.geo
+    oscillate "flat, $((2 * radius)) dx bore" "z - 18" 0.5 5
+done
+echo 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 18, 6};' > constant/pipe.geo
 echo "coupling monolithic; densityFeedback 0;" > system/sphSolution
 oscillate "flat, without densityFeedback" "z - 18" 0.5 5 1.5
 echo "coupling monolithic;" > system/sphSolution

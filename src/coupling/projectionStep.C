@@ -73,7 +73,7 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
                              scalar cellSize, scalar dt)
 {
     const label n = cloud.n();
-    cloud.fillGhosts(cloud.Up, false);
+    cloud.fillContinuityGhosts(cloud.Up);
     List<scalar> f = sphc::div(s, cloud.Up, schemes_.divergence);
     for (label i = 0; i < n; ++i) f[i] = -rho_ / dt * (f[i] - (q.empty() ? 0 : q[i]));
 
@@ -104,7 +104,7 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
 void projectionStep::printContinuityErrors(particleCloud& cloud, const stencil& s,
                                            const List<scalar>& q, scalar dt)
 {
-    cloud.fillGhosts(cloud.Up, false);
+    cloud.fillContinuityGhosts(cloud.Up);
     const List<scalar> div = sphc::div(s, cloud.Up, schemes_.divergence);
     scalar local = 0, global = 0;
     for (label i = 0; i < cloud.n(); ++i)

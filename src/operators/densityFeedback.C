@@ -95,6 +95,9 @@ densityFeedback::densityFeedback(const dictionary& solution, const smoothingKern
       latticeSum_(kernel.latticeSum(cloud.dx)),
       k_(disorderExcess(kernel, cloud.nDims, cloud.dx))
 {
+    if (const auto known = cloud.history.find(startDensity); known != cloud.history.end())
+        start_ = known->second;
+    start_.resize(cloud.zones.size(), 0);
 }
 
 void densityFeedback::addTo(List<scalar>& q, const neighbourList& list, const List<char>& drained,
@@ -102,17 +105,18 @@ void densityFeedback::addTo(List<scalar>& q, const neighbourList& list, const Li
 {
     added_ = 0;
     const scalar rate = constant_ * cloud_.maxSpeed() / cloud_.dx;
-    if (!(rate > 0)) return;
     const auto isOf = [&](label i, label z) {
         return drained[i] && cloud_.zone[i] == z && q[i] == 0;
     };
     for (label z = 0; z < label(cloud_.zones.size()); ++z)
     {
-        if (cloud_.zones[z].phase != phaseType::fluid) continue;
+        if (cloud_.zones[z].phase != phaseType::fluid || (rate == 0 && start_[z] > 0)) continue;
         const density s(cloud_, list, kernel_,
                         [&](label i) { return isOf(i, z) && !cloud_.pFixed[i] && !isCut(i); });
         if (s.n < fewest) continue;
-        const scalar source = rate * ((s.mean - k_ * s.variance) / latticeSum_ - 1);
+        const scalar d = (s.mean - k_ * s.variance) / latticeSum_;
+        if (start_[z] == 0) start_[z] = d;
+        const scalar source = rate * (d - 0.5 * (1 + start_[z]));
         for (label i = cloud_.nSolid(); i < cloud_.n(); ++i)
             if (isOf(i, z) && !cloud_.pFixed[i]) q[i] = source, added_ += source * cloud_.volume();
     }
@@ -124,6 +128,7 @@ void densityFeedback::book(particleCloud& cloud, scalar dt) const
     List<scalar>& booked = cloud.history[fluidFeedback];
     booked.resize(1, 0);
     booked[0] += added_ * dt;
+    cloud.history[startDensity] = start_;
 }
 
 }  // namespace ispf

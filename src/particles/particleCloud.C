@@ -133,6 +133,22 @@ void particleCloud::fillGhosts(List<vec4>& f, bool homogeneous) const
     });
 }
 
+void particleCloud::fillContinuityGhosts(List<vec4>& f) const
+{
+    fillGhosts(f, false);
+    parallelFor(nGhosts(), [&](label begin, label end) {
+        for (label g = begin; g < end; ++g)
+        {
+            if (source_[g] < 0) continue;
+            const ghostRule& rule = rules_[rule_[g]];
+            if (rule.R == rule.M.topLeftCorner<3, 3>()) continue;
+            // u - 2 n n.(u - u_wall), b = 2 u_wall
+            const vector b = offset_[g].xyz();
+            f[n_ + g].setXyz(rule.R * f[source_[g]].xyz() + 0.5 * (b - rule.R * b));
+        }
+    });
+}
+
 void particleCloud::fillGradientGhosts(List<vec4>& f) const
 {
     f.resize(x.size());

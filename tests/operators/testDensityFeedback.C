@@ -13,11 +13,14 @@ namespace
 
 const auto none = [](label) { return false; };
 
-// Source of the particles in lattice spacings per time, where the fastest moves by one
+// Source of the particles in lattice spacings per time, where the fastest moves by one; at the start they were
+// `start` as dense as the lattice
 List<scalar> sourceOf(periodicBox& box, const word& solution, bool drained,
-                      const List<scalar>& given, const std::function<bool(label)>& isCut = none)
+                      const List<scalar>& given, const std::function<bool(label)>& isCut = none,
+                      scalar start = 1)
 {
     box.cloud.Up[3].setXyz({0, box.cloud.dx, 0});
+    box.cloud.history[startDensity] = {start};
     densityFeedback feedback(dictionary::fromString(solution), *box.kernel, box.cloud);
     List<scalar> q = given;
     feedback.addTo(q, box.list, List<char>(box.cloud.n(), drained), isCut);
@@ -88,10 +91,38 @@ TEST_CASE("density feedback: sums that a face cuts off tell nothing, but what th
     CHECK(*std::min_element(q.begin(), q.end()) == *std::max_element(q.begin(), q.end()));
 }
 
+TEST_CASE(
+    "density feedback: half way between the lattice and what it began with, also over a restart")
+{
+    periodicBox box(2, 30, 0.05, "WendlandC2", 1.3);
+    const List<char> all(box.cloud.n(), 1);
+    densityFeedback first(dictionary::fromString(""), *box.kernel, box.cloud);
+    List<scalar> q(box.cloud.n(), 0);
+    first.addTo(q, box.list, all, none);  // at rest
+    first.book(box.cloud, 0.1);
+    const scalar start = box.cloud.history.at(startDensity)[0];
+    CHECK(start == relative(1, 0.002));
+    box.cloud.Up[3].setXyz({0, box.cloud.dx, 0});
+    first.addTo(q, box.list, all, none);
+    CHECK(q[5] == relative(0.5 * (start - 1), 1e-9));
+
+    List<char> gone(box.cloud.n(), 0);
+    for (label i = 0; i < box.cloud.n(); i += 90) gone[i] = 1;  // ten of 900
+    box.cloud.remove(gone);
+    box.update();
+    densityFeedback again(dictionary::fromString(""), *box.kernel, box.cloud);
+    q.assign(box.cloud.n(), 0);
+    again.addTo(q, box.list, List<char>(box.cloud.n(), 1), none);
+    CHECK(q[5] < -0.005);
+    CHECK(q == sourceOf(box, "", true, List<scalar>(box.cloud.n(), 0), none, start));
+    CHECK(q[5] == relative(sourceOf(box)[5] + 0.5 * (1 - start), 1e-9));
+}
+
 TEST_CASE("density feedback books what it has put in")
 {
     periodicBox box(2, 20, 0.05, "WendlandC2", 1.3);
     box.cloud.Up[3].setXyz({0, 1, 0});
+    box.cloud.history[startDensity] = {1};
     densityFeedback feedback(dictionary::fromString(""), *box.kernel, box.cloud);
     List<scalar> q(box.cloud.n(), 0);
     feedback.addTo(q, box.list, List<char>(box.cloud.n(), 1), none);
