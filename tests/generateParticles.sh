@@ -269,6 +269,15 @@ done
 head -c $(($(stat -c %s constant/whole.msh) * 8 / 10)) constant/whole.msh > constant/cut.msh
 dict 'file "constant/cut.msh"; unit mm; group ice;'
 refused "mesh file without its end" "cut.msh is cut off"
+# A pipe into a pot whose bottom is open: beside the pipe a strip would lie behind the pipe's wall
+cp constant/boundary boundary.kept
+echo 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 8, 4}; Cylinder(2) = {0, 0, 8, 0, 0, 6, 10};
+BooleanUnion { Volume{1}; Delete; }{ Volume{2}; Delete; }' > constant/pot.geo
+echo "walls { type wall; } out { type open; p 0; }" > constant/boundary
+echo 'dx 1e-3; zones { water { phase fluid; file "constant/pot.geo"; unit mm; } }
+    patches { out { box ((-11e-3 -11e-3 7.9e-3) (11e-3 11e-3 15e-3)); } }' > system/particleDict
+refused "strip behind a wall" "Open patch out meets the back of wall walls near"
+mv boundary.kept constant/boundary
 cube 1
 dict "$stl"
 refused "leaky surface" "not closed" "water"

@@ -122,6 +122,21 @@ for program in ispfFsiFoam checkParticles "calibrateSprings -bodyOnly" planeSamp
     denied "Cannot read '.*/0/particles.hdf': not an HDF5 file, or truncated" $program
 done
 
+# ---- a flow far from resolved is warned of, and an adjusted step does not shrink without end -----------
+mkdir -p "$scratch/swirl/system" "$scratch/swirl/constant"; cd "$scratch/swirl" || exit 1
+echo 'dx 1e-3; nDims 2; zones { water { phase fluid; shape box; min (-10e-3 -10e-3 0); max (10e-3 10e-3 0);
+    U ("50*y*(1-(y/10e-3)^2)*(1-(x/10e-3)^2)^2" "-50*x*(1-(x/10e-3)^2)*(1-(y/10e-3)^2)^2" 0); } }' > system/particleDict
+echo "startTime 0; endTime 0.01; deltaT 1e-3; writeControl none; writeInterval 1;" > $control
+echo "coupling monolithic;" > $solution; touch system/sphSchemes
+echo "walls { type wall; }" > constant/boundary; echo "rho 1000; mu 1e-3;" > constant/physicalProperties
+place; solved
+[ "$(grep -c "cell Reynolds number U dx/nu is 19" log)" = 1 ] || fail "cell Reynolds number: $(grep -a Warning log | head -n 3)"
+echo "rho 1000; mu 4e-3;" > constant/physicalProperties
+solved
+grep -q "cell Reynolds" log && fail "warns of a cell Reynolds number of 48"
+sed -i "s/deltaT 1e-3/deltaT 1e4; adjustTimeStep yes/" $control
+refused "the CFL limit is 0.0027[0-9]* s, less than 1e-06 of deltaT"
+
 # ---- densities, words, kernels -------------------------------------------------------------------------
 newCase membrane words; place
 setEntry $control endTime 0.01

@@ -70,14 +70,22 @@ void packingGuides::keepOffWall(packedParticle& p) const
         p.x -= (q.depth + 0.45 * dx) * q.normal;
 }
 
-label packingGuides::wallBeside(const vector& x) const
+label packingGuides::wallBeside(const vector& x, label openPatch) const
 {
     for (size_t w = 0; w < geometry_.patches().size(); ++w)
     {
         if (geometry_.patches()[w].type != patchInfo::kind::wall) continue;
         const exteriorPoint q = outside_.footOn(label(w), x, 5 * geometry_.dx());
-        if (q.type != exteriorPoint::kind::nothing && q.depth > -1.5 * geometry_.dx())
-            return label(w);
+        if (q.type == exteriorPoint::kind::nothing || q.depth < -1.5 * geometry_.dx()) continue;
+        // an oblique face leads that far behind the wall's end, and no further
+        if (q.depth > outside_.stripWidth() + 0.5 * geometry_.dx())
+            throw fatalError(
+                "Open patch " + geometry_.patches()[openPatch].name + " meets the back of wall " +
+                geometry_.patches()[w].name + " near (" + str(q.foot[0]) + " " + str(q.foot[1]) +
+                " " + str(q.foot[2]) +
+                "): the strip of fluid beyond it would lie behind that wall. Let the "
+                "open faces end where the wall does, or make the face at that edge a wall");
+        return label(w);
     }
     return -1;
 }

@@ -331,7 +331,7 @@ List<packedParticle> seedPacking(const packingGuides& guides, List<label>& targe
     }
     for (packedParticle& p : seeds)
     {
-        if (p.where == place::strip) p.guard = guides.wallBeside(p.x);
+        if (p.where == place::strip) p.guard = guides.wallBeside(p.x, p.owner);
         guides.hold(p, vector::Zero(), true);
         p.seed = p.x;
         p.fixed = p.where != place::zone && sweep.endsBeside(p);

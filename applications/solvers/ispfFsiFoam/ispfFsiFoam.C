@@ -11,18 +11,41 @@ using namespace ispf;
 namespace
 {
 
+constexpr scalar smallestStep = 1e-6;  // of deltaT
+constexpr scalar mostCellReynolds = 100;
+
 // The step the user asked for, within what the scheme admits
 scalar chooseDeltaT(const Time& time, const couplingScheme::stepLimit& limit)
 {
     const dictionary& control = time.controlDict();
     const scalar asked = control.getInRange("deltaT", 1e-30, 1e30);
     if (time.adjustTimeStep())
+    {
+        if (limit.dt < smallestStep * asked)
+            throw fatalError("Time " + time.timeName() + " s: the " + limit.rule + " limit is " +
+                             str(limit.dt, 3) + " s, less than " + str(smallestStep) +
+                             " of deltaT " + str(asked) +
+                             " s: either deltaT is far off, or the run has become unstable; then "
+                             "start from an earlier time with a smaller maxDeltaT, or refine. The "
+                             "times written so far are intact");
         return std::min(limit.dt, control.getOrDefault<scalar>("maxDeltaT", asked));
+    }
     if (asked > limit.dt * (1 + 1e-9))
         control.fail("deltaT", "deltaT " + str(asked) + " s is beyond the " + limit.rule +
                                    " limit: the largest admissible value now is " + str(limit.dt) +
                                    " s. Lower deltaT or set adjustTimeStep yes");
     return asked;
+}
+
+// U dx/nu: measured, swirls of a few dx gain energy where it is 190 (fluid alone, closed box, both couplings)
+bool isUnresolved(const fsiCase& c)
+{
+    const scalar Re = c.rho * c.cloud.maxSpeed() * c.cloud.dx / c.mu;
+    if (Re <= mostCellReynolds) return false;
+    warning("time " + c.time.timeName() + " s: cell Reynolds number U dx/nu is " + str(Re, 3) +
+            ", above " + str(mostCellReynolds) +
+            ": eddies of a few dx are not damped, and the flow may gain energy. Refine");
+    return true;
 }
 
 int run(const argList& args)
@@ -37,12 +60,14 @@ int run(const argList& args)
     c.report();
     functionObjectList functions(c);
     progress bar(time);
+    bool unresolved = false;  // once is enough to say so
 
     info() << "\nStarting time loop\n\n";
     functions.start();
     while (time.run())
     {
         const couplingScheme::stepLimit limit = coupling->limit();
+        unresolved = unresolved || isUnresolved(c);
         const scalar t0 = time.value();
         time.setDeltaT(chooseDeltaT(time, limit));
         ++time;
