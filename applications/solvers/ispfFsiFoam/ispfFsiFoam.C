@@ -41,7 +41,7 @@ scalar chooseDeltaT(const Time& time, const couplingScheme::stepLimit& limit)
 bool isUnresolved(const fsiCase& c)
 {
     const scalar Re = c.rho * c.cloud.maxSpeed() * c.cloud.dx / c.mu;
-    if (Re <= mostCellReynolds) return false;
+    if (!(Re > mostCellReynolds)) return false;
     warning("time " + c.time.timeName() + " s: cell Reynolds number U dx/nu is " + str(Re, 3) +
             ", above " + str(mostCellReynolds) +
             ": eddies of a few dx are not damped, and the flow may gain energy. Refine");

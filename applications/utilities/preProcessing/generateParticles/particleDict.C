@@ -3,6 +3,7 @@
 
 #include "fileNames.H"
 #include "shapes.H"
+#include "siteFile.H"
 #include "surfaceTopology.H"
 #include <algorithm>
 #include <cmath>
@@ -53,7 +54,8 @@ particleDict::particleDict(const word& caseFolder)
     if (nDims != 2 && nDims != 3) dict_.fail("nDims", "nDims must be 2 or 3");
     support = dx * dict_.getInRangeOrDefault("support", 1, 10, 2.6);
     origin = dict_.getOrDefault<vector>("origin", vector::Zero());
-    stripLayers = dict_.getInRangeOrDefault<label>("stripLayers", 2, 100, 2);
+    stripLayers = dict_.getInRangeOrDefault<label>("stripLayers", siteFile::leastStripLayers,
+                                                   siteFile::mostStripLayers, stripLayers);
     cad_.meshSize = dict_.getInRangeOrDefault("surfaceSize", 0.01 * dx, 1000 * dx, dx);
     cad_.timeLimit = dict_.getInRangeOrDefault("timeLimit", 1, 1e6, cad_.timeLimit);
     weldTolerance_ = dict_.getInRangeOrDefault("weldTolerance", 0, 0.5 * dx, 1e-3 * dx);
