@@ -107,7 +107,7 @@ scalar clippedVolume(const triSurface& surface, const List<halfSpace>& halves)
     {
         part = clipped(part, half, tolerance);
         part.append(lids(part, half, 2 * tolerance));
-        part.weld(0);
+        part.weld(1e-12 * part.bounds().diagonal());
     }
     return part.volume();
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
 
 namespace ispf
@@ -140,41 +141,64 @@ private:
 
 }  // namespace
 
+// The first node with the same coordinates, for each
+static List<label> firstEqual(const List<vector>& nodes)
+{
+    List<label> order(nodes.size()), first(nodes.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto before = [&](label a, label b) {
+        return std::lexicographical_compare(nodes[a].begin(), nodes[a].end(), nodes[b].begin(),
+                                            nodes[b].end());
+    };
+    std::stable_sort(order.begin(), order.end(), before);
+    for (size_t k = 0; k < order.size(); ++k)
+        first[order[k]] =
+            k > 0 && nodes[order[k]] == nodes[order[k - 1]] ? first[order[k - 1]] : order[k];
+    return first;
+}
+
+// The first node within the tolerance, among those that are kept
+static List<label> firstNear(const List<vector>& nodes, const boundBox& box, scalar tolerance)
+{
+    nodeGrid grid(box.min, std::max(tolerance, 1e-12 * box.diagonal()));  // cells can be numbered
+    List<label> first(nodes.size());
+    for (size_t n = 0; n < nodes.size(); ++n)
+    {
+        const label near = grid.find(nodes[n], nodes);
+        first[n] = near < 0 ? label(n) : near;
+        if (near < 0) grid.insert(nodes[n], label(n));
+    }
+    return first;
+}
+
 void triSurface::weld(scalar tolerance)
 {
-    // A zero tolerance joins equal coordinates; the grid still needs a width that is not zero
-    const boundBox box = bounds();
-    const scalar width = std::max(tolerance, 1e-12 * std::max(box.diagonal(), 1e-300));
-    nodeGrid grid(box.min, width);
-    List<vector> kept;
-    List<label> newNode(nodes.size(), -1);
-    List<triangle> keptTriangles;
-    List<label> keptPatch;
+    keepUsed();
+    const List<label> first =
+        tolerance > 0 ? firstNear(nodes, bounds(), tolerance) : firstEqual(nodes);
+    label kept = 0;
     for (label t = 0; t < size(); ++t)
     {
         triangle f = triangles[t];
+        for (label& n : f) n = first[n];
+        if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
+        triangles[kept] = f, patch[kept] = patch[t], ++kept;
+    }
+    triangles.resize(kept), patch.resize(kept);
+    keepUsed();
+}
+
+void triSurface::keepUsed()
+{
+    List<label> newNode(nodes.size(), -1);
+    List<vector> used;
+    for (triangle& f : triangles)
         for (label& n : f)
         {
-            if (newNode[n] < 0)
-            {
-                label& index = newNode[n];
-                index = grid.find(nodes[n], kept);
-                if (index < 0)
-                {
-                    index = label(kept.size());
-                    grid.insert(nodes[n], index);
-                    kept.push_back(nodes[n]);
-                }
-            }
+            if (newNode[n] < 0) newNode[n] = label(used.size()), used.push_back(nodes[n]);
             n = newNode[n];
         }
-        if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
-        keptTriangles.push_back(f);
-        keptPatch.push_back(patch[t]);
-    }
-    nodes = std::move(kept);
-    triangles = std::move(keptTriangles);
-    patch = std::move(keptPatch);
+    nodes = std::move(used);
 }
 
 triSurface triSurface::subset(const std::function<bool(label)>& keep) const
