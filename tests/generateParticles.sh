@@ -4,6 +4,7 @@
 # and no particles
 set -uo pipefail
 . "$(dirname "$0")/cases/functions"
+. "$(dirname "$0")/cases/geometryFunctions"
 cd "$scratch" || exit 1
 mkdir system constant
 echo "walls { type wall; }" > constant/boundary
@@ -20,19 +21,7 @@ cube() {
             print "endloop\nendfacet" }
         print "endsolid water" }' > constant/cube.stl
 }
-# zone entry [dx [further entries]]
-dict() { echo "dx ${2:-1e-3}; placement lattice; zones { water { phase fluid; $1 } } ${3:-}" > system/particleDict; }
-# refused "what" words...: status 1, every word in the text, no particles
-refused() {
-    local what=$1 word; shift
-    rm -rf 0
-    generateParticles > out 2>&1
-    [ $? = 1 ] || fail "$what: status"
-    [ ! -e 0/particles.hdf ] || fail "$what: particles were written"
-    for word in "$@"; do grep -qF -- "$word" out || fail "$what: no '$word' in: $(tail -n 8 out)"; done
-}
 stl='file "constant/cube.stl"; unit mm;'
-geometry=$ispfRoot/tutorials/ispfFsiFoam/hemisphereCappedCylinder/constant/geometry
 igs="file \"$geometry/hccB.igs\";"
 
 cube
@@ -140,7 +129,7 @@ refused "velocity out of the plane" "U must not point along z"
 shape "$box" "" '"my zone" { phase fluid; shape sphere; centre (0 0 0); radius 1; }'
 refused "name with a blank" "cannot be a name"
 dict 'file "";'
-refused "no file name" "is not known" "water.file at line 1"
+refused "no file name" "is not a file" "water.file at line 1"
 
 # gmsh goes on after what it cannot read in a script; the user would lack a part
 for line in "Box(2) = {20, 0, 0, 10" "Merge \"nothere.step\";" "garbage words;"; do

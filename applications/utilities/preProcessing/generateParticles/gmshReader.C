@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gmsh runs in a child process and hands its result over as bytes
-#include "cadModel.H"
+#include "gmshReader.H"
 
-#include "fileNames.H"
 #include "guardedProcess.H"
 #include <algorithm>
 #include <cmath>
@@ -103,9 +102,33 @@ void checkScript(const word& path)
         throw fatalError("gmsh stumbles over it: " + error);
 }
 
-void openFile(const word& path, scalar meshSize)
+// Seconds, on a slow machine, where none are given: OpenCASCADE reads some 100 kB a second, gmsh makes
+// some 1000 triangles; what takes ten times as long will not end
+scalar readingTime(const word& path, const gmshSettings& settings)
 {
-    gmsh::initialize();
+    return settings.timeLimit > 0 ? settings.timeLimit
+                                  : 60 + 1e-4 * scalar(std::filesystem::file_size(path));
+}
+
+scalar meshingTime(const gmshSettings& settings)
+{
+    if (settings.timeLimit > 0) return settings.timeLimit;
+    scalar area = 0;  // in the file's units
+    gmsh::vectorpair surfaces;
+    gmsh::model::getEntities(surfaces, 2);
+    for (const auto& [dim, tag] : surfaces)
+    {
+        double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+        gmsh::model::getBoundingBox(dim, tag, low[0], low[1], low[2], high[0], high[1], high[2]);
+        area += 2 * (vector(high) - vector(low)).squaredNorm();
+    }
+    return 60 + 0.02 * area / (settings.meshSize * settings.meshSize);
+}
+
+void openFile(const word& path, const gmshSettings& settings, const grantTime& grant)
+{
+    const scalar meshSize = settings.meshSize;
+    gmsh::initialize(0, nullptr, false);  // whatever options its user has set elsewhere
     gmsh::option::setNumber("General.Verbosity", 2);
     gmsh::option::setNumber("General.AbortOnError", 1);
     gmsh::option::setNumber("Mesh.ElementOrder", 1);
@@ -127,6 +150,7 @@ void openFile(const word& path, scalar meshSize)
     check(size < mostAcross * meshSize,
           "it measures " + str(size / meshSize) +
               " times the mesh size (surfaceSize, by default dx): are dx and the unit right?");
+    grant(meshingTime(settings));
     gmsh::model::mesh::generate(2);
 }
 
@@ -165,9 +189,9 @@ List<vector> trianglesOf(int face, const std::unordered_map<std::size_t, vector>
     return corners;
 }
 
-word meshInChild(const word& path, scalar meshSize)
+word meshInChild(const word& path, const gmshSettings& settings, const grantTime& grant)
 {
-    openFile(path, meshSize);
+    openFile(path, settings, grant);
     std::vector<std::size_t> tags;
     std::vector<double> x, parameters;
     gmsh::model::mesh::getNodes(tags, x, parameters);
@@ -212,9 +236,10 @@ word meshInChild(const word& path, scalar meshSize)
     return out.bytes;
 }
 
-cadModel unpack(const word& bytes, scalar unit)
+cadModel unpack(const word& bytes, const word& path, scalar unit)
 {
     cadModel model;
+    model.path = path;
     unpacker in{bytes};
     for (size_t n = in.get<size_t>(); n > 0; --n)
     {
@@ -241,117 +266,14 @@ cadModel unpack(const word& bytes, scalar unit)
     return model;
 }
 
-cadModel fromSTL(const word& path, scalar unit)
-{
-    cadModel model;
-    triSurface all = readSTL(path);
-    all.scale(unit);
-    for (const word& name : all.patchNames)
-    {
-        cadFace face;
-        face.tag = label(model.faces.size()) + 1;
-        face.groups = {name};
-        face.surface = all.patchSurface(name);
-        face.surface.patchNames = {""};
-        model.faces.push_back(std::move(face));
-    }
-    return model;
-}
-
-scalar unitInMetres(const word& unit)
-{
-    static const std::map<word, scalar> known = {
-        {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"inch", 25.4e-3}};
-    const auto at = known.find(unit);
-    List<word> names;
-    for (const auto& k : known) names.push_back(k.first);
-    if (at == known.end())
-        throw fatalError("The unit " + unit + " is not known. " + validWords("unit", names));
-    return at->second;
-}
-
 }  // namespace
 
-namespace
+cadModel meshWithGmsh(const word& path, const gmshSettings& settings)
 {
-
-// OpenCASCADE and gmsh take what there is of a file; the formats that say where they end are looked at
-void checkWhole(const word& path, const word& type)
-{
-    const bool iges = type == ".igs" || type == ".iges", step = type == ".stp" || type == ".step",
-               msh = type == ".msh";
-    if (!iges && !step && !msh) return;
-    const word text = readText(path);
-    const size_t end = text.find_last_not_of(" \r\n\t");
-    const word last = end == word::npos ? "" : text.substr(text.find_last_of('\n', end) + 1);
-    const bool whole = iges   ? last.size() > 72 && last[72] == 'T'
-                       : step ? last.find("END-ISO-10303-21;") != word::npos
-                              : last.rfind("$End", 0) == 0;
-    if (!whole)
-        throw fatalError("The file " + path + " is cut off: its last line should " +
-                         (iges   ? "have a T in column 73"
-                          : step ? "be END-ISO-10303-21;"
-                                 : "begin with $End"));
-}
-
-}  // namespace
-
-const cadFace& cadModel::face(label tag) const
-{
-    const auto at =
-        std::find_if(faces.begin(), faces.end(), [tag](const cadFace& f) { return f.tag == tag; });
-    if (at == faces.end())
-        throw fatalError(path + " has no face " + std::to_string(tag) +
-                         "; faces are numbered 1 to " +
-                         std::to_string(faces.empty() ? 0 : faces.back().tag));
-    return *at;
-}
-
-cadModel readCad(const word& path, const cadSettings& settings)
-{
-    if (!std::filesystem::exists(path)) throw fatalError("There is no geometry file " + path);
-    word type = std::filesystem::path(path).extension().string();
-    std::transform(type.begin(), type.end(), type.begin(), [](char c) { return std::tolower(c); });
-    const List<word> declaring = {".igs", ".iges", ".stp", ".step"};
-    const List<word> plain = {".brep", ".geo", ".msh", ".stl"};
-    word unitName = settings.unit;
-    const auto isOne = [&](const List<word>& types) {
-        return std::find(types.begin(), types.end(), type) != types.end();
-    };
-    if (!isOne(declaring) && !isOne(plain))
-    {
-        List<word> valid = declaring;
-        valid.insert(valid.end(), plain.begin(), plain.end());
-        throw fatalError("The type of " + path + " is not known. " + validWords("type", valid));
-    }
-    if (isOne(declaring))
-    {
-        if (!unitName.empty() && unitName != "mm")
-            throw fatalError("The file " + path + " declares its own unit: remove 'unit " +
-                             unitName + ";'");
-        unitName = "mm";  // gmsh converts
-    }
-    else if (type == ".brep" && unitName.empty())
-    {
-        warning("A .brep file does not say what its numbers mean: " + path +
-                " is read in mm. If that is so, say 'unit mm;'");
-        unitName = "mm";
-    }
-    else if (unitName.empty())
-        throw fatalError("A " + type +
-                         " file does not say what its numbers mean: give 'unit mm;' or "
-                         "whatever it is beside the file " +
-                         path);
-    checkWhole(path, type);
-    const scalar unit = unitInMetres(unitName);
-    cadModel model;
-    if (type == ".stl") model = fromSTL(path, unit);
-    else
-        model = unpack(runGuarded("Meshing " + path + " with gmsh", settings.timeLimit,
-                                  [&] { return meshInChild(path, settings.meshSize / unit); }),
-                       unit);
-    model.path = path, model.unit = unitName;
-    return model;
+    const word bytes =
+        runGuarded("Meshing " + path + " with gmsh", readingTime(path, settings),
+                   [&](const grantTime& grant) { return meshInChild(path, settings, grant); });
+    return unpack(bytes, path, settings.unit);
 }
 
 }  // namespace ispf

@@ -3,11 +3,12 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <fcntl.h>
-#include <fstream>
-#include <sstream>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -18,33 +19,54 @@ namespace ispf
 namespace
 {
 
-namespace fs = std::filesystem;
+using seconds = std::chrono::duration<scalar>;
 
-struct scratchFolder
+scalar now()
 {
-    fs::path path;
-    scratchFolder()
+    return seconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+[[noreturn]] void cannot(const word& what)
+{
+    throw fatalError("Cannot " + what + ": " + std::strerror(errno));
+}
+
+// A temporary file without a name: it is gone with the last process that has it open
+struct namelessFile
+{
+    std::FILE* file = std::tmpfile();
+    namelessFile()
     {
-        word name = (fs::temp_directory_path() / "ispf.XXXXXX").string();
-        if (!mkdtemp(name.data()))
-            throw fatalError("Cannot create a temporary folder " + name + ": " +
-                             std::strerror(errno));
-        path = name;
+        if (!file) cannot("create a temporary file");
     }
-    ~scratchFolder()
+    namelessFile(const namelessFile&) = delete;
+    ~namelessFile() { std::fclose(file); }
+
+    int descriptor() const { return fileno(file); }
+    word content() const
     {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
+        word bytes(size_t(std::max<off_t>(0, lseek(descriptor(), 0, SEEK_END))), '\0');
+        size_t have = 0;
+        for (ssize_t n = 1; n > 0 && have < bytes.size(); have += size_t(std::max<ssize_t>(0, n)))
+            n = pread(descriptor(), &bytes[have], bytes.size() - have, off_t(have));
+        return bytes.substr(0, have);
     }
 };
 
-word contents(const fs::path& path)
+// The moment until which the job may run, seen by both processes
+struct sharedDeadline
 {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
+    volatile scalar* at;
+    sharedDeadline()
+    {
+        void* page = mmap(nullptr, sizeof(scalar), PROT_READ | PROT_WRITE,
+                          MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        if (page == MAP_FAILED) cannot("share memory with a process");
+        at = static_cast<volatile scalar*>(page);
+    }
+    sharedDeadline(const sharedDeadline&) = delete;
+    ~sharedDeadline() { munmap(const_cast<scalar*>(at), sizeof(scalar)); }
+};
 
 word lastLines(const word& text, int count)
 {
@@ -54,69 +76,89 @@ word lastLines(const word& text, int count)
     return from == word::npos ? text : text.substr(from);
 }
 
-[[noreturn]] void child(const fs::path& folder, const std::function<word()>& job)
+constexpr char done = 'd', failed = 'f';  // first byte of the result
+
+[[noreturn]] void child(const namelessFile& log, const namelessFile& result,
+                        const std::function<word()>& job)
 {
-    const int log = open((folder / "log").c_str(), O_WRONLY | O_CREAT, 0600);
-    dup2(log, STDOUT_FILENO), dup2(log, STDERR_FILENO);
-    int status = 0;
-    word result;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const rlimit none = {0, 0};
+    setrlimit(RLIMIT_CORE, &none);
+    dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+    dup2(log.descriptor(), STDOUT_FILENO), dup2(log.descriptor(), STDERR_FILENO);
+    word bytes;
     try
     {
-        result = job();
+        bytes = done + job();
     }
     catch (const std::exception& error)
     {
-        result = error.what(), status = 1;
+        bytes = failed + word(error.what());
     }
     catch (const std::string& error)  // as gmsh throws
     {
-        result = error, status = 1;
+        bytes = failed + error;
     }
-    std::ofstream out(folder / "result", std::ios::binary);
-    out << result;
-    out.close();
-    _exit(out ? status : 2);
+    size_t sent = 0;
+    for (ssize_t n = 1; n > 0 && sent < bytes.size(); sent += size_t(std::max<ssize_t>(0, n)))
+        n = write(result.descriptor(), &bytes[sent], bytes.size() - sent);
+    _exit(sent == bytes.size() ? 0 : 1);
 }
 
 // False if it had to be killed
-bool waitFor(pid_t pid, scalar timeLimit, int& status)
+bool waitFor(pid_t pid, const sharedDeadline& deadline, int& status)
 {
-    using clock = std::chrono::steady_clock;
-    const auto end = clock::now() + std::chrono::duration<scalar>(timeLimit);
-    while (waitpid(pid, &status, WNOHANG) == 0)
+    while (true)
     {
-        if (clock::now() > end)
+        const pid_t ended = waitpid(pid, &status, WNOHANG);
+        if (ended == pid) return true;
+        if (ended < 0 && errno != EINTR) cannot("wait for a process");
+        if (now() > *deadline.at)
         {
             kill(pid, SIGKILL);
-            waitpid(pid, &status, 0);
+            while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {}
             return false;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    return true;
+}
+
+word howItEnded(int status)
+{
+    if (WIFSIGNALED(status)) return word("was ended by the signal ") + strsignal(WTERMSIG(status));
+    return "ended its process with status " + std::to_string(WEXITSTATUS(status));
 }
 
 }  // namespace
 
-word runGuarded(const word& what, scalar timeLimit, const std::function<word()>& job)
+word runGuarded(const word& what, scalar limit, const std::function<word(const grantTime&)>& job)
 {
-    const scratchFolder folder;
+    const namelessFile log, result;
+    const sharedDeadline deadline;
+    const scalar begin = now();
+    *deadline.at = begin + limit;
+    const grantTime grant = [&](scalar more) { *deadline.at = now() + more; };
     info().flush();
     const pid_t pid = fork();
-    if (pid < 0)
-        throw fatalError("Cannot start a process for " + what + ": " + std::strerror(errno));
-    if (pid == 0) child(folder.path, job);
+    if (pid < 0) cannot("start a process for " + what);
+    if (pid == 0) child(log, result, [&] { return job(grant); });
     int status = 0;
-    if (!waitFor(pid, timeLimit, status))
-        throw fatalError(
-            what + " did not finish within " + str(timeLimit) +
-            " s. Is the unit right, and the mesh size (surfaceSize) not absurdly small?");
-    const word result = contents(folder.path / "result");
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return result;
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 1) throw fatalError(what + ": " + result);
-    throw fatalError(what + " ended abnormally" +
-                     (WIFSIGNALED(status) ? word(": ") + strsignal(WTERMSIG(status)) : word()) +
-                     ". The last it said:" + lastLines(contents(folder.path / "log"), 5));
+    const bool ended = waitFor(pid, deadline, status);
+    const word printed = lastLines(log.content(), 5);
+    const word said = printed.find_first_not_of(" \n") == word::npos
+                          ? word(" It said nothing.")
+                          : " The last it said:" + printed;
+    if (!ended)
+        throw fatalError(what + " did not finish within " + str(*deadline.at - begin, 3) +
+                         " s and was stopped. Is the unit right, the mesh size (surfaceSize) not "
+                         "absurdly small? 'timeLimit' sets the seconds it may take." +
+                         said);
+    const word bytes = result.content();
+    if (!bytes.empty() && bytes[0] == failed) throw fatalError(what + ": " + bytes.substr(1));
+    if (bytes.empty() || status != 0)
+        throw fatalError(what + " " + howItEnded(status) + " after " + str(now() - begin, 3) +
+                         " s." + said);
+    return bytes.substr(1);
 }
 
 }  // namespace ispf

@@ -57,7 +57,7 @@ particleDict::particleDict(const word& caseFolder)
     stripLayers = dict_.getInRangeOrDefault<label>("stripLayers", siteFile::leastStripLayers,
                                                    siteFile::mostStripLayers, stripLayers);
     cad_.meshSize = dict_.getInRangeOrDefault("surfaceSize", 0.01 * dx, 1000 * dx, dx);
-    cad_.timeLimit = dict_.getInRangeOrDefault("timeLimit", 1, 1e6, cad_.timeLimit);
+    if (dict_.found("timeLimit")) cad_.timeLimit = dict_.getInRange("timeLimit", 1, 1e6);
     weldTolerance_ = dict_.getInRangeOrDefault("weldTolerance", 0, 0.5 * dx, 1e-3 * dx);
     defaultPatch_ = dict_.getOrDefault<word>("defaultPatch", "walls");
     readBoundary();

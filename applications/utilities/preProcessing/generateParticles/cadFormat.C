@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cadFormat.H"
+
+#include "fileNames.H"
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace ispf
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+const std::map<word, word> formatOfType = {
+    {".igs", "IGES"},  {".iges", "IGES"},       {".stp", "STEP"}, {".step", "STEP"},
+    {".brep", "BREP"}, {".geo", "gmsh-script"}, {".stl", "STL"},  {".msh", "gmsh-mesh"}};
+
+word lower(word text)
+{
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return text;
+}
+
+word lineFrom(const word& text, size_t from)
+{
+    const size_t end = text.find_first_of("\r\n", from);
+    return text.substr(from, end == word::npos ? end : end - from);
+}
+
+size_t firstLetter(const word& text)
+{
+    const size_t at = text.find_first_not_of(" \t\r\n");
+    return at == word::npos ? text.size() : at;
+}
+
+// The last line that is not blank, and whether a blank one stands before it
+std::pair<word, bool> lastLine(const word& text)
+{
+    const size_t end = text.find_last_not_of(" \r\n\t");
+    if (end == word::npos) return {"", false};
+    const size_t before = text.find_last_of("\r\n", end);
+    if (before == word::npos) return {text, false};
+    const size_t from = text.find_last_not_of("\r", before - (text[before] == '\n' ? 1 : 0));
+    return {lineFrom(text, before + 1), from != word::npos && text[from] == '\n'};
+}
+
+bool isBinarySTL(const word& text)
+{
+    std::uint32_t n = 0;
+    if (text.size() < 84) return false;
+    std::copy_n(&text[80], 4, reinterpret_cast<char*>(&n));
+    return text.size() == 84 + 50 * size_t(n);
+}
+
+// The format by its first bytes; "" if they tell nothing
+word contentOf(const word& text)
+{
+    const word start = text.substr(firstLetter(text), 200);
+    const auto begins = [&](const char* mark) { return start.rfind(mark, 0) == 0; };
+    if (isBinarySTL(text)) return "STL";
+    if (begins("ISO-10303-21;")) return "STEP";
+    if (start.find("CASCADE Topology V") != word::npos) return "BREP";
+    if (begins("$MeshFormat") || begins("$NOD")) return "gmsh-mesh";
+    const word first = lineFrom(text, 0);
+    if (first.size() > 72 && first[72] == 'S' &&
+        first.find_first_not_of(" 0123456789", 73) == word::npos)
+        return "IGES";
+    if (lower(start.substr(0, 6)).rfind("solid", 0) == 0 &&
+        lower(text.substr(0, 2000)).find("facet") != word::npos)
+        return "STL";
+    const std::map<word, word> others = {{"\x1f\x8b", "gzip-compressed"},
+                                         {"PK\x03\x04", "zip-compressed"},
+                                         {"ply", "PLY"},
+                                         {"OFF", "OFF"},
+                                         {"# vtk", "VTK"},
+                                         {"<?xml", "XML"},
+                                         {"<VTKFile", "VTK XML"},
+                                         {"\x89HDF", "HDF5"},
+                                         {"%PDF", "PDF"},
+                                         {"\xd0\xcf\x11\xe0", "a CAD program's own"}};
+    for (const auto& [mark, name] : others)
+        if (begins(mark.c_str())) return name;
+    return "";
+}
+
+word kind(const word& format)
+{
+    return format == "gmsh-script" ? "a gmsh script"
+           : format == "gmsh-mesh" ? "a mesh of gmsh"
+                                   : format;
+}
+
+void checkContent(const word& path, const word& format, const word& text)
+{
+    const word found = contentOf(text);
+    // a script may begin with anything; the reader of STL says itself what is wrong
+    if (found == format || (found.empty() && (format == "gmsh-script" || format == "STL"))) return;
+    if (!found.empty())
+        throw fatalError("The file " + path + " is named as " + kind(format) + " but holds " +
+                         found +
+                         " data: name it as what it is, or export it again as IGES, STEP or STL");
+    const std::map<word, word> marks = {{"IGES", "should have an S in column 73"},
+                                        {"STEP", "should be ISO-10303-21;"},
+                                        {"BREP", "should name a CASCADE Topology version"},
+                                        {"gmsh-mesh", "should be $MeshFormat"}};
+    throw fatalError("The file " + path + " is not " + kind(format) + ": its first line " +
+                     marks.at(format));
+}
+
+// OpenCASCADE and gmsh take what there is of a file, or wait for ever for the rest; the formats that say
+// where they end are looked at
+void checkWhole(const word& path, const word& format, const word& text)
+{
+    const auto [last, afterBlank] = lastLine(text);
+    word should;
+    if (format == "IGES" && !(last.size() > 72 && last[72] == 'T'))
+        should = "have a T in column 73";
+    if (format == "STEP" && last.find("END-ISO-10303-21;") == word::npos)
+        should = "be END-ISO-10303-21;";
+    if (format == "gmsh-mesh" && last.rfind("$End", 0) != 0) should = "begin with $End";
+    // the root shape: orientation, number and location, after the table's last entry
+    const bool root = !last.empty() && (last[0] == '+' || last[0] == '-') &&
+                      last.find_first_not_of("0123456789 ", 1) == word::npos;
+    if (format == "BREP" && !(root && afterBlank))
+        should = "name the whole shape, as in '+1 0', after a blank line";
+    if (!should.empty())
+        throw fatalError("The file " + path + " is cut off: its last line should " + should);
+}
+
+// Parameters 14 and 15 of the global section (IGES 5.3, 2.2.4.3): a flag, or 3 and a name
+word unitOfIGES(const word& text)
+{
+    static const std::array<const char*, 12> flags = {"",  "inch", "mm",  "",   "ft", "mile",
+                                                      "m", "km",   "mil", "um", "cm", "microinch"};
+    std::istringstream lines(text);
+    word line, global;
+    while (std::getline(lines, line))
+        if (line.size() > 72 && line[72] == 'G') global += line.substr(0, 72);
+    char comma = ',';
+    List<word> values(1);
+    for (size_t i = 0; i < global.size() && values.size() < 16; ++i)
+    {
+        const size_t digits = global.find_first_not_of("0123456789", i);
+        if (digits != word::npos && digits > i && global[digits] == 'H' &&
+            global.find_first_not_of(' ') != word::npos && values.back().empty())
+        {
+            const size_t n = std::min<size_t>(
+                std::stoul("0" + global.substr(i, std::min<size_t>(digits - i, 6))),
+                global.size() - digits - 1);
+            values.back() = global.substr(digits + 1, n);
+            if (values.size() == 1 && n == 1) comma = values[0][0];
+            i = digits + n;
+        }
+        else if (global[i] == comma) values.emplace_back();
+        else if (global[i] != ' ') values.back() += global[i];
+    }
+    if (values.size() < 16) return "";
+    const word& flag = values[13];
+    if (flag == "3") return lower(values[14]);
+    const auto digit = [](unsigned char c) { return std::isdigit(c); };
+    const bool number =
+        !flag.empty() && flag.size() < 3 && std::all_of(flag.begin(), flag.end(), digit);
+    return number && std::stoul(flag) < flags.size() ? flags[std::stoul(flag)] : "";
+}
+
+// Every instance that is a LENGTH_UNIT (ISO 10303-41)
+word unitOfSTEP(const word& text)
+{
+    static const std::map<word, word> prefixes = {{"$", "m"},        {"", "m"},
+                                                  {".MILLI.", "mm"}, {".CENTI.", "cm"},
+                                                  {".MICRO.", "um"}, {".KILO.", "km"}};
+    std::set<word> units;
+    for (size_t at = text.find("LENGTH_UNIT"); at != word::npos;
+         at = text.find("LENGTH_UNIT", at + 1))
+    {
+        const size_t from = text.rfind('=', at), to = text.find(';', at);
+        if (from == word::npos || to == word::npos) continue;
+        word entity = text.substr(from, to - from);
+        entity.erase(std::remove_if(entity.begin(), entity.end(),
+                                    [](unsigned char c) { return std::isspace(c); }),
+                     entity.end());
+        const size_t si = entity.find("SI_UNIT("), other = entity.find("CONVERSION_BASED_UNIT('");
+        if (other != word::npos)
+            units.insert(
+                lower(entity.substr(other + 23, entity.find('\'', other + 23) - other - 23)));
+        else if (si != word::npos)
+        {
+            const auto known = prefixes.find(entity.substr(si + 8, entity.find(',', si) - si - 8));
+            if (known != prefixes.end()) units.insert(known->second);
+        }
+    }
+    return join(List<word>(units.begin(), units.end()), " and ");
+}
+
+}  // namespace
+
+cadFormat recognisedFormat(const word& path)
+{
+    if (!fs::exists(path)) throw fatalError("There is no geometry file " + path);
+    if (!fs::is_regular_file(path)) throw fatalError(path + " is not a file");
+    const auto known = formatOfType.find(lower(fs::path(path).extension().string()));
+    List<word> types;
+    for (const auto& [type, name] : formatOfType) types.push_back(type);
+    if (known == formatOfType.end())
+        throw fatalError("The type of " + path + " is not known. " + validWords("type", types));
+    cadFormat format{known->second, ""};
+    const word text = readText(path);
+    if (firstLetter(text) == text.size())
+        throw fatalError("The geometry file " + path + " is empty");
+    checkContent(path, format.name, text);
+    checkWhole(path, format.name, text);
+    if (format.name == "IGES") format.declaredUnit = unitOfIGES(text);
+    if (format.name == "STEP") format.declaredUnit = unitOfSTEP(text);
+    return format;
+}
+
+}  // namespace ispf

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cadModel.H"
+
+#include "cadFormat.H"
+#include "gmshReader.H"
+#include <algorithm>
+#include <map>
+
+namespace ispf
+{
+
+namespace
+{
+
+cadModel fromSTL(const word& path, scalar unit)
+{
+    cadModel model;
+    model.path = path;
+    triSurface all = readSTL(path);
+    all.scale(unit);
+    for (const word& name : all.patchNames)
+    {
+        cadFace face;
+        face.tag = label(model.faces.size()) + 1;
+        face.groups = {name};
+        face.surface = all.patchSurface(name);
+        face.surface.patchNames = {""};
+        model.faces.push_back(std::move(face));
+    }
+    return model;
+}
+
+const std::map<word, scalar> unitsInMetres = {
+    {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"inch", 25.4e-3}};
+
+scalar unitInMetres(const word& unit)
+{
+    const auto at = unitsInMetres.find(unit);
+    List<word> names;
+    for (const auto& k : unitsInMetres) names.push_back(k.first);
+    if (at == unitsInMetres.end())
+        throw fatalError("The unit " + unit + " is not known. " + validWords("unit", names));
+    return at->second;
+}
+
+// Of the numbers that the reader hands over: gmsh converts to mm what declares its unit
+word unitOf(const word& path, const cadFormat& format, const word& asked)
+{
+    if (format.declares())
+    {
+        if (!asked.empty() && asked != "mm")
+            throw fatalError("The file " + path + " declares its own unit: remove 'unit " + asked +
+                             ";'");
+        if (format.declaredUnit.empty())
+            warning(path + " declares no unit that is known: it is read in mm");
+        return "mm";
+    }
+    if (!asked.empty()) return asked;
+    if (format.name != "BREP")
+        throw fatalError(
+            "A file like this does not say what its numbers mean: give 'unit mm;' or "
+            "whatever it is beside the file " +
+            path);
+    warning("A .brep file does not say what its numbers mean: " + path +
+            " is read in mm. If that is so, say 'unit mm;'");
+    return "mm";
+}
+
+}  // namespace
+
+const cadFace& cadModel::face(label tag) const
+{
+    const auto at =
+        std::find_if(faces.begin(), faces.end(), [tag](const cadFace& f) { return f.tag == tag; });
+    if (at == faces.end())
+        throw fatalError(path + " has no face " + std::to_string(tag) +
+                         "; faces are numbered 1 to " +
+                         std::to_string(faces.empty() ? 0 : faces.back().tag));
+    return *at;
+}
+
+cadModel readCad(const word& path, const cadSettings& settings)
+{
+    const cadFormat format = recognisedFormat(path);
+    const word unitName = unitOf(path, format, settings.unit);
+    const scalar unit = unitInMetres(unitName);
+    cadModel model = format.name == "STL"
+                         ? fromSTL(path, unit)
+                         : meshWithGmsh(path, {settings.meshSize / unit, unit, settings.timeLimit});
+    model.unit = unitName;
+    model.origin = format.name + (format.declaredUnit.empty()
+                                      ? " in " + unitName
+                                      : " in " + format.declaredUnit + ", as it declares");
+    return model;
+}
+
+}  // namespace ispf
