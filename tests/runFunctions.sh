@@ -30,6 +30,21 @@ run 'runApplication -a goodOne 3; runApplication -s two goodOne 4' || fail "appe
 [ "$(grep -c hello log.goodOne)" = 2 ] && grep -q "hello 4" log.goodOne.two || fail "append or suffix"
 run 'runApplication -o goodOne 5' && [ "$(grep hello log.goodOne)" = "hello 5" ] || fail "overwrite"
 
+run 'runParallel -np 4 -s serial goodOne 6; echo after' || fail runParallel
+says "No MPI: goodOne runs as one process"; says after; grep -qx "hello 6" log.goodOne.serial || fail "runParallel's log"
+run 'runParallel goodOne 7' && says "has run already"
+for wrong in "" "-x goodOne" "-s" "-o"; do
+    run "runApplication $wrong; echo after" && fail "accepted: runApplication $wrong"
+    grep -q after "$scratch/out" && fail "went on: runApplication $wrong"
+done
+run 'isTest -a -test && notTest -a && [ "$(getNumberOfProcessors)" = 1 ]' || fail isTest
+echo "rho 1;" > 0.orig/../system/other
+run 'cloneCase . ../clone' && diff -r system "$scratch/clone/system" && [ -e "$scratch/clone/0.orig/U" ] &&
+    [ ! -e "$scratch/clone/log.goodOne" ] || fail cloneCase
+run 'cloneCase . ../clone; echo after' && fail "cloned over a case"; says "exists already"
+run 'cloneCase ../bin ../other; echo after' && fail "cloned what is no case"; says "is no case"
+rm system/other log.goodOne.serial
+
 run 'runApplication badOne; echo after' && fail "a failure does not stop the script"
 says "badOne failed with status 3"; says "$scratch/case/log.badOne"; says "no more ideas"
 grep -qx "after\|50" "$scratch/out" && fail "more than the error, or the script went on"

@@ -3,33 +3,56 @@
 # The short tutorials end with the numbers that they are there for; the cavity coarser than as it stands
 set -uo pipefail
 . "$(dirname "$0")/cases/functions"
-export ISPF_DIR=$cases/../..  # they are copies out of the tree
-run() { # tutorial picture [file entry value]...
-    rm -rf "${scratch:?}/$1"
-    cp -r "$ISPF_DIR/tutorials/ispfFsiFoam/$1" "$scratch/"
-    cd "$scratch/$1" || exit 1
-    local name=$1 picture=$2; shift 2
-    while [ $# -gt 0 ]; do setEntry "$1" "$2" "$3"; shift 3; done
-    ./Allclean && ./Allrun > out 2>&1 || fail "$name: $(tail -n 8 out)"
-    [ -s "comparison/$picture.png" ] || fail "$name: no picture"
-}
+runs=$cases/../../bin/ispfRunTutorials
 below() { # what value limit
     awk -v v="$2" -v most="$3" 'BEGIN { exit !(v != "" && v*v < most*most) }' || fail "$1: $2"
 }
 number() { awk -v key="$1" 'at = index($0, key) { split(substr($0, at + length(key)), word, " "); print word[1]; exit }' comparison/table.txt; }
 
-run taylorGreen taylorGreen
+inRun() { cd "$scratch/$1" || exit 1; }
+
+"$runs" -full -folder "$scratch" taylorGreen poiseuille hydrostaticBox || fail "tutorials in full"
+inRun ispfFsiFoam/taylorGreen
 below "Taylor-Green [%]" "$(number 'largest difference ')" 1
-run taylorGreen taylorGreen system/sphSolution coupling monolithic
-below "Taylor-Green, monolithic [%]" "$(number 'largest difference ')" 1
-grep -q "^coupling: monolithic" log.ispfFsiFoam || fail "not monolithic"
-run poiseuille poiseuille
+inRun ispfFsiFoam/poiseuille
 awk '$1 + 0 > 0 { ++n; worse += $4*$4 > 0.7^2 } END { exit n != 5 || worse }' comparison/table.txt ||
     fail "Poiseuille: $(cat comparison/table.txt)"
-run hydrostaticBox hydrostaticBox
+inRun ispfFsiFoam/hydrostaticBox
 below "speed at rest [m/s]" "$(number 'largest speed in 1 s ')" 1e-6
 below "hydrostatic pressure" "$(number 'rho g (1/2 - z)')" 1e-9
-run lidDrivenCavity lidDrivenCavity system/particleDict dx 0.05 system/controlDict deltaT 0.02
+
+# the same scene otherwise
+varied() { # tutorial folder file entry value...
+    cp -r "$ispfRoot/tutorials/ispfFsiFoam/$1" "$scratch/$2"
+    inRun "$2"
+    local name=$2; shift 2
+    while [ $# -gt 0 ]; do setEntry "$1" "$2" "$3"; shift 3; done
+    (export ISPF_DIR=$ispfRoot; ./Allclean && ./Allrun) > out 2>&1 || fail "$name: $(tail -n 8 out)"
+}
+varied taylorGreen monolithic system/sphSolution coupling monolithic
+below "Taylor-Green, monolithic [%]" "$(number 'largest difference ')" 1
+grep -q "^coupling: monolithic" log.ispfFsiFoam || fail "not monolithic"
+varied lidDrivenCavity coarseCavity system/particleDict dx 0.05 system/controlDict deltaT 0.02
 below "cavity, u" "$(number 'u on x = 1/2: root mean square of the difference ')" 0.03
 below "cavity, v" "$(number 'v on y = 1/2: root mean square of the difference ')" 0.03
+
+# every tutorial, shortened; and one that fails is told so, for each reason
+"$runs" -folder "$scratch/short" || fail "shortened tutorials"
+broken() { # what is said, command that breaks a copy of the tree
+    rm -rf "$scratch/tree"; mkdir -p "$scratch/tree/tutorials/ispfFsiFoam"
+    cp -r "$ispfRoot/bin" "$ispfRoot/etc" "$scratch/tree/"
+    cp -r "$ispfRoot/tutorials/ispfFsiFoam/hydrostaticBox" "$scratch/tree/tutorials/ispfFsiFoam/"
+    cd "$scratch/tree/tutorials/ispfFsiFoam/hydrostaticBox" && ./Allclean > /dev/null 2>&1 || exit 1
+    eval "$2"
+    "$scratch/tree/bin/ispfRunTutorials" -steps 4 > "$scratch/out" 2>&1 && fail "passed: $2"
+    grep -qE -- "$1" "$scratch/out" || fail "'$1' is not said: $(cat "$scratch/out")"
+}
+export ISPF_BIN=${ISPF_BIN:-$ispfRoot/build/${OPT:-Release}/bin}
+broken "Unknown coupling 'none'" "setEntry system/sphSolution coupling none"
+broken "log.ispfFsiFoam reached 0.02 of 0.04 s" "sed -i 's/^runApplication ispf.*/&; sed -i s,0.04,0.02,g log.ispfFsiFoam/' Allrun"
+broken "log.generateParticles has no End" "sed -i 's/^runApplication ispf.*/sed -i s,End,, log.generateParticles; &/' Allrun"
+broken "comparison/hydrostaticBox.png was not made" "sed -i '/^gnuplot/d' Allrun"
+broken "[Ww]arning" "sed -i 's/kPa/&/; \$a plot \"nothing\"' validation/plot.gp"
+broken "Allclean does not leave" "echo > Allclean"
+broken "no tutorial|Allrun failed" "rm system/particleDict"
 [ $failures = 0 ]

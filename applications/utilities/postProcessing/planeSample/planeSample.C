@@ -94,6 +94,7 @@ int run(int argc, char** argv)
         }
         info() << "planeSample: time " << time.name << ", " << planes.size() << " planes\n";
     }
+    info() << "End\n";
     return 0;
 }
 
