@@ -39,8 +39,13 @@ WARN     := -Wall -Wextra -Wno-psabi -Wno-restrict
 FLAGS_Release  := -O3 -DNDEBUG
 FLAGS_Debug    := -O0 -g -D_GLIBCXX_ASSERTIONS
 FLAGS_Sanitize := -O1 -g -fsanitize=address,undefined -fno-omit-frame-pointer
+# `make fuzz` only, with clang: its libFuzzer is what chooses the bytes
+FLAGS_Fuzz     := -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
 ifeq ($(FLAGS_$(OPT)),)
 $(error OPT=$(OPT) is not known; valid: Release Debug Sanitize)
+endif
+ifeq ($(OPT),Fuzz)
+WARN += -Wno-unknown-warning-option
 endif
 # Threads are started in core/parallel only: Eigen's own would spin and depend on their number.
 # no-math-errno and no-trapping-math keep NaN checks working; finite-math-only would not
@@ -58,7 +63,7 @@ quoted    = $(foreach l,$(1),-iquote src/$(l))
 archives  = $(foreach l,$(call reverse,$(LIBS)),$(if $(wildcard src/$(l)/*.C),$(B)/lib$(l).a))
 archivesOf= $(foreach l,$(call reverse,$(call ordered,$(1))),$(if $(wildcard src/$(l)/*.C),$(B)/lib$(l).a))
 
-.PHONY: all test demo bench clean help format
+.PHONY: all test fuzz demo bench clean help format
 all: ## build every library and program
 help: ## this list
 	@grep -hE '^[a-zA-Z]+:.*## ' Makefile | sed -E 's/^([a-zA-Z]+):.*## /  \1\t/' | expand -t 14
@@ -106,12 +111,28 @@ ifneq ($(filter test testPrograms,$(MAKECMDGOALS)),)
 $(OBJECTS): | testPackages
 endif
 
+# What libFuzzer drives: one program per reader of foreign files (tests/fuzz/targets.H)
+FUZZED := dictionary csv stl hdf5
+define FUZZER
+$(B)/fuzz/$(1): tests/fuzz/libFuzzer/entry.C $(B)/tests/fuzz/$(1)Target.o $$(call archivesOf,geometry fileFormats)
+	@mkdir -p $$(@D); echo "LD   $$@"
+	@$$(CXX) $$(CXXFLAGS) -fsanitize=fuzzer -iquote src/core -iquote tests/fuzz -DTARGET=$(1) $$^ -o $$@ $$(HDF5_L) -lhdf5
+fuzzTargets: $(B)/fuzz/$(1)
+endef
+.PHONY: fuzzTargets
+$(foreach f,$(FUZZED),$(eval $(call FUZZER,$(f))))
+
 $(B)/%.o: %.C Makefile
 	@mkdir -p $(@D); echo "CXX  $<"
 	@$(CXX) $(CXXFLAGS) $(INC) -MMD -MP -c $< -o $@
 
 test: all testPrograms ## build and run every test (at most 10 minutes)
 	@ISPF_BIN=$(B)/bin bin/runTests $(B)/testPrograms
+
+fuzz: ## RUNS (100000) arbitrary inputs for each reader of foreign files, with clang's libFuzzer
+	@bin/installDependencies run fuzz
+	@$(MAKE) --no-print-directory OPT=Fuzz CXX=clang++ fuzzTargets
+	@bin/runFuzz build/Fuzz/fuzz $(or $(RUNS),100000) $(FUZZED)
 
 demo: ## install what is missing, build, run the benchmark, draw it, compare with the published numbers
 	@bin/demo

@@ -24,7 +24,7 @@ hdf5Id checked(hid_t id, hdf5Id::closer close, const word& what)
 hdf5Id createInMemory()
 {
     silenceHdf5();
-    constexpr size_t growBy = size_t(16) << 20;
+    constexpr size_t growBy = size_t(1) << 18;
     const hdf5Id access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "a file");
     if (H5Pset_fapl_core(access, growBy, false) < 0) fail("a file");
     // The name is never used on disk, but HDF5 refuses to open the same one twice

@@ -229,6 +229,7 @@ triSurface parseSTL(const word& bytes, const word& path)
     triSurface s = binary ? readBinary(bytes, path) : asciiReader(bytes, path).read();
     if (s.empty()) throw fatalError("The surface file " + path + " holds no triangle");
     s.weld(0);
+    if (s.empty()) throw fatalError("All triangles of the surface file " + path + " have no area");
     return s;
 }
 
