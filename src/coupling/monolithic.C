@@ -19,6 +19,7 @@
 #include "FGMRES.H"
 #include "monolithicPreconditioner.H"
 #include "particleShifting.H"
+#include "stepReport.H"
 #include "volumeLedger.H"
 #include "worstRow.H"
 
@@ -74,6 +75,7 @@ private:
     void accept(const List<scalar>& z, scalar dt);
     void account(scalar dt);
     word solve(scalar dt, List<scalar>& z);
+    void printContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt);
     word tooFar(scalar dt, const List<scalar>& z) const;
     void advance(scalar t, scalar dt, int depth);
     scalar velocityScale() const;
@@ -88,6 +90,7 @@ private:
     bool makesGood_;
     particleShifting shifting_;
     densityFeedback density_;
+    continuityErrors continuityErrors_;
 
     std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
@@ -223,6 +226,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     FGMRES solver(controls, "Up", maxIter_);
     const solverPerformance result = solver.solve(system_, preconditioner_, b, z);
     result.print();
+    printContinuityErrors(b, z, dt);
     // measured: a tenth of the tolerance's digits still steps stably, no reduction at all does not
     if (!result.converged && !(result.finalResidual < 100 * tolerance_ * result.initialResidual))
         return "the coupled system did not converge (residual " + str(result.finalResidual, 3) +
@@ -230,6 +234,16 @@ word monolithic::solve(scalar dt, List<scalar>& z)
                std::to_string(result.nIterations) + " iterations), worst at " +
                cloud.describe(worstRow(system_, b, z) / 4);
     return tooFar(dt, z);
+}
+
+// What the solver leaves of D u - C (p - theta p^n) = q; its rows are scaled by dx
+void monolithic::printContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt)
+{
+    List<scalar> Az(b.size()), left(b.size() / 4);
+    system_.apply(z, Az);
+    for (size_t i = 0; i < left.size(); ++i)
+        left[i] = (Az[4 * i + 3] - b[4 * i + 3]) / c_.cloud.dx;
+    continuityErrors_.print(left, dt);
 }
 
 // A particle that is not finite or passes its neighbours in one step
@@ -247,6 +261,7 @@ word monolithic::tooFar(scalar dt, const List<scalar>& z) const
 
 void monolithic::step(scalar t, scalar dt)
 {
+    printCourant(c_.cloud, dt);
     advance(t, dt, 0);
     // a run continued from here has no old factor: both go on alike, bit for bit
     if (c_.time.writeTime()) preconditioner_.refresh();

@@ -17,6 +17,7 @@
 #include "particleShifting.H"
 #include "projectionLimits.H"
 #include "projectionStep.H"
+#include "stepReport.H"
 
 #include <cmath>
 #include <ostream>
@@ -57,7 +58,6 @@ private:
     List<scalar> sources() const;
     void solve(const stencil& s, scalar dt);
     void move(const List<vec4>& before, scalar dt);
-    void printCourant(scalar dt) const;
 
     fsiCase& c_;
     dictionary dict_;
@@ -109,18 +109,6 @@ void projection::move(const List<vec4>& before, scalar dt)
     });
 }
 
-void projection::printCourant(scalar dt) const
-{
-    const particleCloud& cloud = c_.cloud;
-    scalar sum = 0, most = 0;
-    for (label i = 0; i < cloud.n(); ++i)
-    {
-        const scalar Co = cloud.Up[i].xyz().norm() * dt / cloud.dx;
-        sum += Co, most = std::max(most, Co);
-    }
-    info() << "Courant Number mean: " << sum / cloud.n() << " max: " << most << std::endl;
-}
-
 void projection::solve(const stencil& s, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
@@ -139,7 +127,7 @@ void projection::solve(const stencil& s, scalar dt)
 
 void projection::step(scalar t, scalar dt)
 {
-    printCourant(dt);
+    printCourant(c_.cloud, dt);
     c_.updateNeighbours(t, t + dt);
     particleCloud& cloud = c_.cloud;
     const stencil s{cloud, c_.list, c_.correction};

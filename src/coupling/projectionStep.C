@@ -106,15 +106,9 @@ void projectionStep::printContinuityErrors(particleCloud& cloud, const stencil& 
 {
     cloud.fillContinuityGhosts(cloud.Up);
     const List<scalar> div = sphc::div(s, cloud.Up, schemes_.divergence);
-    scalar local = 0, global = 0;
-    for (label i = 0; i < cloud.n(); ++i)
-    {
-        const scalar error = dt * (div[i] - (q.empty() ? 0 : q[i])) / cloud.n();
-        local += std::abs(error), global += error;
-    }
-    cumulative_ += global;
-    info() << "time step continuity errors : sum local = " << local << ", global = " << global
-           << ", cumulative = " << cumulative_ << std::endl;
+    List<scalar> left(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i) left[i] = div[i] - (q.empty() ? 0 : q[i]);
+    continuityErrors_.print(left, dt);
 }
 
 }  // namespace ispf

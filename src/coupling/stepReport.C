@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stepReport.H"
+
+#include "messages.H"
+#include <ostream>
+
+namespace ispf
+{
+
+void printCourant(const particleCloud& cloud, scalar dt)
+{
+    scalar sum = 0, most = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        const scalar Co = cloud.Up[i].xyz().norm() * dt / cloud.dx;
+        sum += Co, most = std::max(most, Co);
+    }
+    info() << "Courant Number mean: " << sum / cloud.n() << " max: " << most << std::endl;
+}
+
+void continuityErrors::print(const List<scalar>& left, scalar dt)
+{
+    scalar local = 0, global = 0;
+    for (const scalar e : left)
+    {
+        const scalar error = dt * e / scalar(left.size());
+        local += std::abs(error), global += error;
+    }
+    cumulative_ += global;
+    info() << "time step continuity errors : sum local = " << local << ", global = " << global
+           << ", cumulative = " << cumulative_ << std::endl;
+}
+
+}  // namespace ispf
