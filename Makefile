@@ -8,11 +8,12 @@ OPT  ?= Release
 B    := build/$(OPT)
 
 # ---- the layers, lowest first -------------------------------------------------------------------
-LIBS := core geometry linearSolvers fileFormats particles placement boundary operators models coupling \
+LIBS := core geometry surfaceTools linearSolvers fileFormats particles placement boundary operators models coupling \
         functionObjects
 
 USES_core            :=
 USES_geometry        := core
+USES_surfaceTools    := geometry
 USES_linearSolvers   := core
 USES_particles       := core
 USES_placement       := particles geometry

@@ -271,6 +271,17 @@ bool surfaceSearch::crosses(const vector& a, const vector& b) const
     return hit;
 }
 
+List<label> surfaceSearch::allHits(const vector& a, const vector& b) const
+{
+    List<label> triangles;
+    const vector d = b - a;
+    alongSegment(a, b, [&](label k) {
+        if (meets(corners_[k], a, d) <= 1) triangles.push_back(order_[k]);
+        return scalar(1);
+    });
+    return triangles;
+}
+
 surfaceHit surfaceSearch::firstHit(const vector& a, const vector& b) const
 {
     surfaceHit hit;

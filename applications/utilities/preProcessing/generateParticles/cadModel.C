@@ -88,6 +88,7 @@ cadModel readCad(const word& path, const cadSettings& settings)
                          ? fromSTL(path, unit)
                          : meshWithGmsh(path, {settings.meshSize / unit, unit, settings.timeLimit});
     model.unit = unitName;
+    model.givenFacets = format.name == "STL" || format.name == "gmsh-mesh";
     model.origin = format.name + (format.declaredUnit.empty()
                                       ? " in " + unitName
                                       : " in " + format.declaredUnit + ", as it declares");

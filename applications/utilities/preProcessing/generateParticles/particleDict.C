@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "particleDict.H"
 
+#include "bodySurface.H"
 #include "fileNames.H"
 #include "shapes.H"
 #include "siteFile.H"
-#include "surfaceTopology.H"
+#include "surfaceRepair.H"
 #include <algorithm>
 #include <cmath>
 
@@ -59,6 +60,7 @@ particleDict::particleDict(const word& caseFolder)
     cad_.meshSize = dict_.getInRangeOrDefault("surfaceSize", 0.01 * dx, 1000 * dx, dx);
     if (dict_.found("timeLimit")) cad_.timeLimit = dict_.getInRange("timeLimit", 1, 1e6);
     weldTolerance_ = dict_.getInRangeOrDefault("weldTolerance", 0, 0.5 * dx, 1e-3 * dx);
+    closeHoles_ = dict_.getInRangeOrDefault("closeHoles", 0, 1e3 * dx, dx);
     defaultPatch_ = dict_.getOrDefault<word>("defaultPatch", "walls");
     readBoundary();
     readPatches();
@@ -207,7 +209,7 @@ List<body> particleDict::cadBodies(const word& zone, const dictionary& dict)
     List<body> bodies;
     const auto take = [&](auto&& wanted) {
         for (const cadVolume& v : cad.volumes)
-            if (wanted(v)) bodies.push_back(cadBody(zone, cad, v.faces, v.volume));
+            if (wanted(v)) bodies.push_back(cadBody(zone, dict, cad, v.faces, v.volume));
         return !bodies.empty();
     };
     if (take(named) || take(touched)) return bodies;
@@ -217,7 +219,7 @@ List<body> particleDict::cadBodies(const word& zone, const dictionary& dict)
     if (faces.empty())
         dict.fail("file", "No face of " + cad.path + " has " + selector.describe() + " for zone " +
                               zone + "; the file has " + facesOf(cad));
-    bodies.push_back(cadBody(zone, cad, faces, 0));
+    bodies.push_back(cadBody(zone, dict, cad, faces, 0));
     return bodies;
 }
 
@@ -232,14 +234,25 @@ void particleDict::cutHalfWay(const word& file, triSurface& s) const
     for (vector& x : s.nodes) x[2] -= 0.5 * (box.min[2] + box.max[2]);
 }
 
-body particleDict::cadBody(const word& zone, const cadModel& cad, const List<label>& faces,
-                           scalar volume) const
+body particleDict::cadBody(const word& zone, const dictionary& dict, const cadModel& cad,
+                           const List<label>& faces, scalar volume) const
 {
     body b{-1, {}, volume};
     for (const label tag : faces) b.surface.append(cad.face(tag).surface);
     if (nDims == 2) cutHalfWay(cad.path, b.surface);
-    b.surface.weld(weldTolerance_);
-    orientOutward(b.surface);
+    if (cad.givenFacets) sortByPlace(b.surface);
+    bodySurfaceSettings settings = {
+        dx, nDims, weldTolerance_, closeHoles_, &dict, dict.get<word>("file"), cad.origin};
+    try
+    {
+        prepareBodySurface(b.surface, zone, settings);
+    }
+    catch (const fatalError& error)
+    {
+        if (error.hasLocation()) throw;
+        dict.fail("file", error.what());
+    }
+    if (cad.givenFacets) sortByPlace(b.surface);
     const scalar meshed = b.surface.volume();
     if (volume > 0 && std::abs(meshed / volume - 1) > 0.01)
     {

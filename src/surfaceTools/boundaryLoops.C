@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "boundaryLoops.H"
+
+#include "surfaceTopology.H"
+#include <algorithm>
+#include <map>
+
+namespace ispf
+{
+
+namespace
+{
+
+boundaryLoop measured(List<label> nodes, const triSurface& s)
+{
+    boundaryLoop loop;
+    loop.nodes = std::move(nodes);
+    const size_t n = loop.nodes.size();
+    const auto at = [&](size_t k) -> const vector& { return s.nodes[loop.nodes[k % n]]; };
+    boundBox box;
+    for (size_t k = 0; k < n; ++k)
+    {
+        const scalar side = (at(k + 1) - at(k)).norm();
+        loop.length += side;
+        loop.centre += 0.5 * side * (at(k) + at(k + 1));
+        box.add(at(k));
+    }
+    loop.centre /= loop.length;
+    // what is missing runs along the rim the other way
+    for (size_t k = 0; k < n; ++k)
+        loop.area -= 0.5 * (at(k) - loop.centre).cross(at(k + 1) - loop.centre);
+    loop.size = (box.max - box.min).maxCoeff();
+    for (size_t k = 0; k < n; ++k)
+        loop.offPlane = std::max(loop.offPlane, std::abs((at(k) - loop.centre).dot(loop.normal())));
+    return loop;
+}
+
+}  // namespace
+
+vector boundaryLoop::normal() const
+{
+    return area.norm() > 0 ? vector(area.normalized()) : vector(vector::Zero());
+}
+
+scalar boundaryLoop::width() const
+{
+    return 2 * area.norm() / length;
+}
+
+word boundaryLoop::describe(scalar dx) const
+{
+    return "at (" + str(centre[0]) + " " + str(centre[1]) + " " + str(centre[2]) + ") m, " +
+           str(size, 3) + " m = " + str(size / dx, 3) + " dx across, " +
+           std::to_string(nodes.size()) + " edges";
+}
+
+List<boundaryLoop> boundaryLoops(const triSurface& s)
+{
+    std::multimap<label, label> next;
+    for (const auto& [a, b] : openHalfEdges(s)) next.emplace(a, b);
+    List<boundaryLoop> loops;
+    std::map<label, size_t> onPath;  // where a node stands in it
+    List<label> path;
+    while (!next.empty())
+    {
+        if (path.empty()) path.push_back(next.begin()->first), onPath[path[0]] = 0;
+        const auto step = next.find(path.back());
+        const label to = step->second;
+        next.erase(step);
+        const auto met = onPath.find(to);
+        if (met == onPath.end())
+        {
+            onPath[to] = path.size(), path.push_back(to);
+            continue;
+        }
+        // rims that touch in a node come apart here
+        const size_t from = met->second;
+        loops.push_back(measured({path.begin() + from, path.end()}, s));
+        for (size_t k = from + 1; k < path.size(); ++k) onPath.erase(path[k]);
+        path.resize(from + 1);
+        if (from == 0) path.clear(), onPath.clear();
+    }
+    std::sort(loops.begin(), loops.end(), [](const boundaryLoop& a, const boundaryLoop& b) {
+        if (a.size != b.size) return a.size > b.size;
+        return std::lexicographical_compare(a.centre.begin(), a.centre.end(), b.centre.begin(),
+                                            b.centre.end());
+    });
+    return loops;
+}
+
+}  // namespace ispf

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Crossings, thin places and caps of surfaces whose answers are known
+#include "facetCrossings.H"
+#include "featureSize.H"
+#include "geometry/testShapes.H"
+#include "relative.H"
+#include "surfaceCapping.H"
+#include "surfaceRepair.H"
+#include "surfaceTopology.H"
+
+#include <doctest/doctest.h>
+
+using namespace ispf;
+using namespace ispf::testShapes;
+
+namespace
+{
+
+// Facets around an axis, without ends
+triSurface openTube(const vector& from, const vector& to, scalar radius, int n, int rings)
+{
+    triSurface s;
+    s.addPatch("tube");
+    const vector axis = (to - from).normalized(), u = axis.unitOrthogonal(), v = axis.cross(u);
+    const auto at = [&](int k, int m) {
+        const scalar angle = 2 * M_PI * k / n;
+        return vector(from + (to - from) * m / rings +
+                      radius * (std::cos(angle) * u + std::sin(angle) * v));
+    };
+    for (int m = 0; m < rings; ++m)
+        for (int k = 0; k < n; ++k)
+        {
+            s.add(at(k, m), at(k + 1, m), at(k + 1, m + 1), 0);
+            s.add(at(k, m), at(k + 1, m + 1), at(k, m + 1), 0);
+        }
+    s.weld(1e-9);
+    return s;
+}
+
+word refusalOf(triSurface s, const List<capRequest>& requests, scalar tolerance)
+{
+    try
+    {
+        capEnds(s, requests, tolerance, 0.1);
+    }
+    catch (const fatalError& error)
+    {
+        return error.what();
+    }
+    return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("facets that cross are found with the place, facets that touch are not")
+{
+    triSurface s = box({0, 0, 0}, {1, 1, 1});
+    CHECK(facetCrossings(surfaceSearch(s), 1e-9, 10).empty());
+    triSurface touching = s;
+    touching.append(box({1, 0, 0}, {2, 1, 1}));
+    CHECK(facetCrossings(surfaceSearch(touching), 1e-9, 10).empty());
+    CHECK(facetWithin(touching, 1e-4) == -1);
+
+    s.append(box({0.9, 0.4, 0.4}, {2, 0.6, 0.6}));
+    const auto crossings = facetCrossings(surfaceSearch(s), 1e-9, 100);
+    REQUIRE(!crossings.empty());
+    for (const facetCrossing& c : crossings) CHECK(c.at[0] == relative(1, 1e-12));
+    CHECK(facetCrossings(surfaceSearch(s), 1e-9, 3).size() == 3);
+
+    triSurface shallow = box({0, 0, 0}, {1, 1, 1});
+    shallow.append(box({1 - 1e-5, 0.4, 0.4}, {2, 0.6, 0.6}));
+    CHECK(facetCrossings(surfaceSearch(shallow), 1e-4, 100).empty());
+    CHECK(facetWithin(shallow, 1e-4) == -1);
+    CHECK(!facetCrossings(surfaceSearch(shallow), 1e-6, 100).empty());
+    CHECK(facetWithin(shallow, 1e-6) >= 0);
+
+    // overlap along common planes: no edge goes through a facet
+    triSurface aligned = box({0, 0, 0}, {2, 1, 1});
+    aligned.append(box({1, 0, 0}, {3, 1, 1}));
+    CHECK(facetCrossings(surfaceSearch(aligned), 1e-9, 10).empty());
+    CHECK(facetWithin(aligned, 1e-4) >= 0);
+    CHECK(facetWithin(sphere({0, 0, 0}, 1, 4), 1e-4) == -1);
+}
+
+TEST_CASE("thinnest place and narrowest gap")
+{
+    const featureSizes cube = smallestFeatures(box({0, 0, 0}, {3, 2, 1}), 0.1, false);
+    CHECK(cube.thickness.size == relative(1, 1e-9));
+    CHECK(cube.thickness.at[2] == relative(0.5, 1e-9));
+    CHECK_FALSE(cube.gap.found());
+
+    triSurface two = box({0, 0, 0}, {1, 1, 1});
+    two.append(box({1.03, 0.2, 0.2}, {4, 0.8, 0.9}));
+    const featureSizes apart = smallestFeatures(two, 0.1, false);
+    CHECK(apart.gap.size == relative(0.03, 1e-9));
+    CHECK(apart.gap.at[0] == relative(1.015, 1e-9));
+    CHECK(apart.thickness.size == relative(0.6, 1e-9));
+
+    triSurface shell = sphere({0, 0, 0}, 1, 4), hole = sphere({0, 0, 0.05}, 0.9, 4);
+    hole.flip(), shell.append(hole);
+    const featureSizes wall = smallestFeatures(shell, 0.05, false);
+    CHECK(wall.thickness.size == relative(0.05, 0.1));
+    CHECK(wall.thickness.at[2] > 0.8);
+    const featureSizes prism = smallestFeatures(box({0, 0, 0}, {3, 2, 1}), 0.1, true);
+    CHECK(prism.thickness.size == relative(2, 1e-9));
+}
+
+TEST_CASE("open ends become plane lids of the exact volume, in the order asked for")
+{
+    const int n = 40;
+    const scalar polygon = 0.5 * n * std::sin(2 * M_PI / n);  // of radius 1
+    triSurface s = openTube({1, 2, 3}, {4, 2, 7}, 1, n, 3);
+    SUBCASE("as it is") {}
+    SUBCASE("inside out")
+    {
+        s.flip();
+    }
+    scalar fit = 1e-9;  // of the normals
+    SUBCASE("a rim that wavers")
+    {
+        fit = 1e-3;
+        const vector axis = vector(3, 0, 4) / 5;
+        for (size_t k = 0; k < s.nodes.size(); ++k)
+            if (std::abs((s.nodes[k] - vector(4, 2, 7)).dot(axis)) < 1e-9)
+                s.nodes[k] += (k % 2 ? 0.02 : -0.02) * axis;
+    }
+    capEnds(s, {{"outlet", {5, 2, 7}}, {"inlet", {0, 0, 0}}}, 0.05, 0.1);
+    orientOutward(s);
+    CHECK(checkClosed(s).closed());
+    CHECK(s.volume() == relative(5 * polygon, fit));
+    const triSurface inlet = s.patchSurface("inlet"), outlet = s.patchSurface("outlet");
+    CHECK(inlet.area() == relative(polygon, fit));
+    for (label t = 0; t < inlet.size(); ++t)
+        CHECK((inlet.normal(t) - vector(-0.6, 0, -0.8)).norm() < fit);
+    for (label t = 0; t < outlet.size(); ++t)
+        CHECK((outlet.normal(t) - vector(0.6, 0, 0.8)).norm() < fit);
+}
+
+TEST_CASE("caps that cannot be are refused with the measure")
+{
+    const triSurface tube = openTube({0, 0, 0}, {0, 0, 4}, 1, 24, 4);
+    const auto says = [](const word& said, const word& what) {
+        CAPTURE(said);
+        CHECK(said.find(what) != word::npos);
+    };
+    says(refusalOf(tube, {{"in", {0, 0, 0}}}, 0.05), "No cap is asked for over the open end at (");
+    says(refusalOf(tube, {{"in", {0, 0, 0}}, {"out", {0, 0, 1}}}, 0.05),
+         "The caps in and out are nearest to the same open end");
+    triSurface bent = tube;
+    for (vector& x : bent.nodes)
+        if (x[2] > 3.9) x[2] += 0.3 * x[0] * x[0];
+    says(refusalOf(bent, {}, 0.05), "= 1.5 dx off the plane fitted to it");
+    triSurface ring = tube, inner = openTube({0, 0, 0}, {0, 0, 4}, 0.5, 24, 4);
+    inner.flip(), ring.append(inner);
+    says(refusalOf(ring, {}, 0.05), "surrounds another open end");
+    says(refusalOf(box({0, 0, 0}, {1, 1, 1}), {}, 0.05), "has no open end");
+}
+
+TEST_CASE("polygons of any shape are filled")
+{
+    for (const int n : {3, 4, 7, 60})
+    {
+        List<vector> star;
+        for (int k = 0; k < 2 * n; ++k)
+        {
+            const scalar r = k % 2 ? 1 : 0.3, a = M_PI * k / n;
+            star.emplace_back(r * std::cos(a), r * std::sin(a), 0);
+            if (k % 3 == 0)  // a point in line with the next
+            {
+                const scalar q = k % 2 ? 0.3 : 1, b = M_PI * (k + 1) / n;
+                star.push_back(0.5 * (star.back() + vector(q * std::cos(b), q * std::sin(b), 0)));
+            }
+        }
+        scalar area = 0, filled = 0;
+        for (size_t k = 0; k < star.size(); ++k)
+            area += 0.5 * star[k].cross(star[(k + 1) % star.size()])[2];
+        const auto triangles = fillPolygon(star, vector::UnitZ());
+        CHECK(triangles.size() == star.size() - 2);
+        for (const auto& [a, b, c] : triangles)
+            filled += 0.5 * (star[b] - star[a]).cross(star[c] - star[a])[2];
+        CHECK(filled == relative(area, 1e-12));
+    }
+    CHECK(fillPolygon({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, vector::UnitZ()).empty());
+}
