@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// etc/caseDicts/annotated against the sources, both ways: every key that a program asks for is annotated,
+// with its default, its words and its range; every annotated key is one that is asked for.  That the
+// files are valid, with each key in its place, is shown by running them: tests/annotated.sh.
+#include "dictionary.H"
+#include "fileNames.H"
+#include "sourceScan.H"
+#include "token.H"
+
+#include <doctest/doctest.h>
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <set>
+
+using namespace ispf;
+using annotated::request;
+
+namespace
+{
+
+// Which annotated file a request belongs to: by source file and what is asked.  The first line that fits
+struct home
+{
+    const char *file, *receiver, *annotated;
+};
+const home homes[] = {
+    {"core/Function1", "", "Function1"},
+    {"core/TimeControls", "d", "controlDict uniformTime"},
+    {"core/TimeControls", "changed.control_", "functions"},
+    {"placement/", "", "none"},
+    {"core/Time", "", "controlDict"},
+    {"core/argList|fileFormats|cloudIO|siteFile", "", "none"},
+    {".*", "args|file|patches|sum|volume_|in", "none"},
+    {"functionObjects/samplePlane|planeSample", "", "planeSampleDict"},
+    {"functionObjects/surfaceLeaks", "d", "boundary"},
+    {"functionObjects/functionObjectList", "c.time.controlDict\\(\\)", "functions"},
+    {"functionObjects", "", "functions"},
+    {"boundary/", "", "boundary"},
+    {"models/", "", "structureProperties"},
+    {"linearSolvers|operators/(density|particleSh)", "", "sphSolution"},
+    {"operators/operatorSchemes", "", "sphSchemes"},
+    {"coupling/fsiCase", "schemes", "sphSchemes"},
+    {"coupling/fsiCase", "solution", "sphSolution"},
+    {"coupling/fsiCase", "g|dict|", "g"},
+    {"coupling/fsiCase", "physical|zoneRho|perZone", "physicalProperties"},
+    {"coupling/", "", "sphSolution"},
+    {"generateParticles/particleDict", "patch|boundary", "boundary"},
+    {"generateParticles/", "", "particleDict"},
+    {"calibrateSprings", "", "structureProperties"},
+    {"ispfFsiFoam|checkParticles", "control|", "controlDict functions"},
+};
+
+word homeOf(const request& r)
+{
+    for (const home& h : homes)
+        if (std::regex_search(r.file, std::regex(h.file)) &&
+            (!*h.receiver || std::regex_match(r.receiver, std::regex(h.receiver))))
+            return h.annotated;
+    return "";
+}
+
+// Keys that users choose (names of patches, zones, function objects), or that a function was handed
+// whose callers are looked at
+bool isName(const request& r)
+{
+    static const std::set<word> names = {
+        "name", "w.name", "own.name", "face.name()", "zone", "key", "found", "present", ""};
+    return names.count(r.arguments[0]) != 0;
+}
+
+struct annotation
+{
+    word key, comment;
+    int line;
+};
+
+// Entries, and entries in comments that stand in place of others
+List<annotation> annotations(const word& file)
+{
+    static const std::regex entry(
+        R"((?:^|[{;])\s*(?://)?([A-Za-z_]\w*)(?:[ \t]+[^;{}]*(?=;)|(?=[ \t]*\{)|[ \t]*(?://.*)?$))"),
+        prose(R"(^\s*//[ ])");
+    List<annotation> all;
+    std::istringstream in(
+        readText((annotated::root() / "etc/caseDicts/annotated" / file).string()));
+    word line;
+    for (int n = 1; std::getline(in, line); ++n)
+    {
+        if (std::regex_search(line, prose)) continue;
+        const size_t blank = std::min(line.find("// "), line.size());
+        const word code = line.substr(0, blank), comment = line.substr(blank);
+        for (std::sregex_iterator m(code.begin(), code.end(), entry), end; m != end; ++m)
+            if (word((*m)[1]).rfind("my", 0) != 0) all.push_back({(*m)[1], comment, n});
+    }
+    return all;
+}
+
+List<annotation> annotationsIn(const word& files, const word& key)
+{
+    List<annotation> found;
+    std::istringstream names(files);
+    for (word file; names >> file;)
+        if (file != "uniformTime" && file != "none")
+            for (const annotation& a : annotations(file))
+                if (a.key == key) found.push_back(a);
+    return found;
+}
+
+word unquoted(word text)
+{
+    text.erase(std::remove(text.begin(), text.end(), '"'), text.end());
+    return text;
+}
+
+// What the comment must say: the word, or a number of that value behind `before`
+bool says(const word& comment, const word& before, const word& value)
+{
+    scalar wanted, given;
+    const word text = value == "true" ? "yes" : value == "false" ? "no" : unquoted(value);
+    for (size_t at = comment.find(before); at != word::npos; at = comment.find(before, at + 1))
+    {
+        std::istringstream rest(comment.substr(at + before.size()));
+        word first;
+        rest >> first;
+        while (!first.empty() && word(";,:)").find(first.back()) != word::npos && first != text)
+            first.pop_back();
+        if (first == text) return true;
+        if (readNumber(text, wanted) && readNumber(first, given) && wanted == given) return true;
+    }
+    return false;
+}
+
+bool isConstant(const word& a)
+{
+    scalar number;
+    return a == "true" || a == "false" || readNumber(a, number) ||
+           (a.size() > 1 && a.front() == '"' && std::count(a.begin(), a.end(), '"') == 2);
+}
+
+// "" or what none of the annotations says
+word unsaid(const request& r, const List<annotation>& at)
+{
+    const auto anySays = [&](const word& before, const word& value) {
+        return std::any_of(at.begin(), at.end(),
+                           [&](const annotation& a) { return says(a.comment, before, value); });
+    };
+    const bool optional = r.function.find("OrDefault") != word::npos;
+    if (optional && !std::any_of(at.begin(), at.end(), [](const annotation& a) {
+            return a.comment.find("default") != word::npos;
+        }))
+        return "that it has a default";
+    if (optional && isConstant(r.arguments.back()) && !unquoted(r.arguments.back()).empty() &&
+        !anySays("default ", r.arguments.back()))
+        return "default " + r.arguments.back();
+    if (r.function.rfind("choose", 0) == 0 && r.arguments[1].front() == '{')
+    {
+        static const std::regex quoted("\"([^\"]*)\"");
+        const word& list = r.arguments[1];
+        for (std::sregex_iterator m(list.begin(), list.end(), quoted), end; m != end; ++m)
+            if (std::none_of(at.begin(), at.end(), [&](const annotation& a) {
+                    return std::regex_search(a.comment, std::regex("\\b" + word((*m)[1]) + "\\b"));
+                }))
+                return "the word " + word((*m)[1]);
+    }
+    scalar low, high;
+    if (r.function.rfind("getInRange", 0) == 0 && readNumber(r.arguments[1], low) &&
+        readNumber(r.arguments[2], high) && high < 1e9)
+        if (!anySays(" to ", r.arguments[2])) return r.arguments[1] + " to " + r.arguments[2];
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("every key that a program asks for is annotated, with default, words and range")
+{
+    const List<request> all = annotated::requests();
+    REQUIRE(all.size() > 200);
+    for (const request& r : all)
+    {
+        const word at = r.file + " line " + std::to_string(r.line) + ": " + r.receiver + "." +
+                        r.function + "(" + (r.key.empty() ? r.arguments[0] : r.key) + ")";
+        const word files = homeOf(r);
+        if (files.empty()) FAIL_CHECK(at << ": which dictionary is this? Tell it in homes above.");
+        if (files == "none" || files.empty()) continue;
+        if (r.key.empty())
+        {
+            if (!isName(r)) FAIL_CHECK(at << ": a key that is no literal.");
+            continue;
+        }
+        const List<annotation> found = annotationsIn(files, r.key);
+        const bool elsewhere = files.find("uniformTime") != word::npos && found.empty() &&
+                               (r.key == "value" || r.key == "index");  // of <time>/uniform/time
+        if (elsewhere) continue;
+        if (found.empty())
+            FAIL_CHECK(at << ": not annotated in etc/caseDicts/annotated/" << files << ".");
+        else if (const word missing = unsaid(r, found); !missing.empty())
+            FAIL_CHECK(at << ": the comment in etc/caseDicts/annotated/" << files
+                          << " does not say " << missing << ".");
+    }
+}
+
+TEST_CASE("every annotated key is one that a program asks for")
+{
+    std::map<word, std::set<word>> asked;
+    for (const request& r : annotated::requests())
+    {
+        std::istringstream names(homeOf(r));
+        for (word file; names >> file;) asked[file].insert(r.key);
+    }
+    asked["functions"].insert("functions");
+    const auto folder = annotated::root() / "etc/caseDicts/annotated";
+    size_t n = 0;
+    for (const auto& f : std::filesystem::directory_iterator(folder))
+    {
+        const word file = f.path().filename().string();
+        for (const annotation& a : annotations(file))
+        {
+            ++n;
+            if (file == "Function1" && a.key == "p") continue;  // the entry that is one
+            CHECK_MESSAGE(asked[file].count(a.key) + asked["Function1"].count(a.key),
+                          file << " line " << a.line << ": nothing asks for " << a.key);
+        }
+    }
+    CHECK(n > 120);
+}
