@@ -26,7 +26,7 @@ USES_functionObjects := coupling
 
 # Programs: one folder each, all its *.C.  They see every library; packages beyond the common ones:
 APPS := $(sort $(dir $(wildcard applications/solvers/*/*.C applications/utilities/*/*/*.C)))
-PKG_generateParticles := -lgmsh -lmuparser
+PKG_generateParticles := -lgmsh
 
 # Tests: one doctest program per folder of tests/, seeing the library of the same name and below; one
 # named after a program sees every library and all of the program but its main.
@@ -54,7 +54,7 @@ HDF5_I   := $(shell pkg-config --cflags hdf5 2>/dev/null || echo -I/usr/include/
 HDF5_L   := $(shell pkg-config --libs-only-L hdf5 2>/dev/null || echo -L/usr/lib/x86_64-linux-gnu/hdf5/serial)
 CXXFLAGS := -std=c++20 $(WARN) $(FLAGS_$(OPT)) -fno-math-errno -fno-trapping-math -fopenmp \
             -DEIGEN_DONT_PARALLELIZE -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse $(HDF5_I:-I%=-isystem %)
-LDLIBS   := $(HDF5_L) -lhdf5 -lcholmod -lumfpack -lopenblas -fopenmp
+LDLIBS   := $(HDF5_L) -lmuparser -lre2 -lhdf5 -lcholmod -lumfpack -lopenblas -fopenmp
 
 # ---- rules ---------------------------------------------------------------------------------------
 reverse   = $(if $(1),$(call reverse,$(wordlist 2,$(words $(1)),$(1))) $(firstword $(1)))
@@ -117,7 +117,7 @@ FUZZED := dictionary csv stl hdf5
 define FUZZER
 $(B)/fuzz/$(1): tests/fuzz/libFuzzer/entry.C $(B)/tests/fuzz/$(1)Target.o $$(call archivesOf,geometry fileFormats)
 	@mkdir -p $$(@D); echo "LD   $$@"
-	@$$(CXX) $$(CXXFLAGS) -fsanitize=fuzzer -iquote src/core -iquote tests/fuzz -DTARGET=$(1) $$^ -o $$@ $$(HDF5_L) -lhdf5
+	@$$(CXX) $$(CXXFLAGS) -fsanitize=fuzzer -iquote src/core -iquote tests/fuzz -DTARGET=$(1) $$^ -o $$@ $$(HDF5_L) -lmuparser -lre2 -lhdf5
 fuzzTargets: $(B)/fuzz/$(1)
 endef
 .PHONY: fuzzTargets

@@ -39,9 +39,11 @@ void boundary::content::addPatch(const word& name, const dictionary& dict, const
     balance.push_back({name});
     for (const word key : {"point", "normal"}) dict.found(key);  // generateParticles asks for them
     if (type == "symmetryPlane")
-        group.addSymmetryPlane(name, dict.get<vector>("point"), nonZero(dict, "normal"));
+        group.addSymmetryPlane(name, dict.get<vector>("point", dims::length),
+                               nonZero(dict, "normal"));
     else if (type == "cyclic")
-        group.addCyclic(name, dict.get<vector>("point"), nonZero(dict, "separation"));
+        group.addCyclic(name, dict.get<vector>("point", dims::length),
+                        nonZero(dict, "separation", dims::length));
     else if (type == "open") openIndex.push_back(index);
     else
     {

@@ -23,7 +23,8 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
                  far = std::max(near, openLayer::reach * dx_);
     if (dict.chooseOrDefault("surface", {"triSurface", "plane"}, "triSurface") == "plane")
     {
-        const vector point = dict.get<vector>("point"), normal = nonZero(dict, "normal");
+        const vector point = dict.get<vector>("point", dims::length),
+                     normal = nonZero(dict, "normal");
         surface_ = patchSurface::plane(point, normal, near);
         deep_ = patchSurface::plane(point, normal, far);
     }

@@ -166,9 +166,9 @@ std::unique_ptr<patchSurface> patchSurface::triangles(triSurface surface, const 
     return std::make_unique<triangulatedSurface>(std::move(surface), group, reach, twoSided);
 }
 
-vector nonZero(const dictionary& dict, const word& key)
+vector nonZero(const dictionary& dict, const word& key, const dimensionSet& wanted)
 {
-    const vector v = dict.get<vector>(key);
+    const vector v = dict.get<vector>(key, wanted);
     if (!(v.norm() > 0)) dict.fail(key, key + " must not be zero");
     return v;
 }

@@ -6,7 +6,7 @@ namespace ispf
 
 wallMotion::wallMotion(const dictionary& patch, const word& caseFolder)
 {
-    slide_ = patch.getOrDefault<vector>("velocity", vector::Zero());
+    slide_ = patch.getOrDefault<vector>("velocity", vector::Zero(), dims::velocity);
     const dictionary* motion = patch.findDict("motion");
     if (!motion) return;
     moves_ = true;
@@ -14,8 +14,8 @@ wallMotion::wallMotion(const dictionary& patch, const word& caseFolder)
     if (steady == motion->found("displacement"))
         motion->fail(steady ? "velocity" : "displacement",
                      "motion wants either 'direction' and 'displacement', or 'velocity'");
-    direction_ =
-        steady ? motion->get<vector>("velocity") : nonZero(*motion, "direction").normalized();
+    direction_ = steady ? motion->get<vector>("velocity", dims::velocity)
+                        : nonZero(*motion, "direction").normalized();
     if (steady) return;
     displacement_ = Function1::New("displacement", *motion, caseFolder);
 }
@@ -46,7 +46,8 @@ wall wall::New(const word& name, const dictionary& dict, const word& caseFolder)
     if (w.twoSided)
         dict.fail("twoSided",
                   "a plane has no end and fluid on one side only; use surface triSurface");
-    w.point = dict.get<vector>("point"), w.normal = nonZero(dict, "normal").normalized();
+    w.point = dict.get<vector>("point", dims::length),
+    w.normal = nonZero(dict, "normal").normalized();
     if (std::abs(w.motion.slide().dot(w.normal)) > 1e-9 * w.motion.slide().norm())
         dict.fail("velocity",
                   "velocity must lie in the plane, as the surface stays where it is. "

@@ -118,7 +118,7 @@ std::unique_ptr<Function1> Function1::New(const word& key, const dictionary& dic
     scalar v;
     if ((!tokens.empty() && readNumber(tokens[0].text, v)) ||
         (!tokens.empty() && tokens[0].is('[')))
-        return std::make_unique<constant>(dict.get<scalar>(key));
+        return std::make_unique<constant>(dict.get<scalar>(key, dims::any));
     const word type = tokens.empty() ? "" : tokens[0].text;
     if (!tokens.empty()) tokens.erase(tokens.begin());
     if (type == "table")

@@ -41,9 +41,10 @@ void Time::readControls(const dictionary& d)
 {
     stopAt_ =
         d.chooseOrDefault("stopAt", {"endTime", "writeNow", "noWriteNow", "nextWrite"}, "endTime");
-    endTime_ = stopAt_ == "endTime" || d.found("endTime") ? d.get<scalar>("endTime") : never;
-    const scalar dt = d.getInRange("deltaT", 1e-30, 1e30);
-    maxDeltaT_ = d.getInRangeOrDefault("maxDeltaT", 1e-30, 1e30, 1e30);
+    endTime_ =
+        stopAt_ == "endTime" || d.found("endTime") ? d.get<scalar>("endTime", dims::time) : never;
+    const scalar dt = d.getInRange("deltaT", 1e-30, 1e30, dims::time);
+    maxDeltaT_ = d.getInRangeOrDefault("maxDeltaT", 1e-30, 1e30, 1e30, dims::time);
     if (dt != askedDeltaT_) deltaT_ = std::min(dt, maxDeltaT_);
     askedDeltaT_ = dt;
     adjust_ = d.getOrDefault<bool>("adjustTimeStep", false);
@@ -65,11 +66,13 @@ void Time::readWriteControls(const dictionary& d)
     if (writeControl_ == "none") d.found("writeInterval");
     else
     {
-        writeInterval_ = d.getInRange("writeInterval", 1e-30, 1e30);
-        if (writeControl_ == "timeStep" && d.get<label>("writeInterval") < 1)
+        const bool counts = writeControl_ == "timeStep";
+        writeInterval_ =
+            d.getInRange("writeInterval", 1e-30, 1e30, counts ? dims::none : dims::time);
+        if (counts && d.get<label>("writeInterval") < 1)
             d.fail("writeInterval", "With 'writeControl timeStep' this counts steps: 1 or more.");
     }
-    writeTimes_ = d.getOrDefault<List<scalar>>("writeTimes", {});
+    writeTimes_ = d.getOrDefault<List<scalar>>("writeTimes", {}, dims::time);
     std::sort(writeTimes_.begin(), writeTimes_.end());
     purge_ = d.getInRangeOrDefault<label>("purgeWrite", 0, 1e9, 0);
     format_ = d.chooseOrDefault("timeFormat", {"general", "fixed", "scientific"}, "general");
@@ -103,8 +106,8 @@ scalar Time::chosenStart() const
     const List<word> valid = {"startTime", "firstTime", "latestTime"};
     const word from = control_.chooseOrDefault("startFrom", valid, "latestTime");
     const bool given = control_.found("startTime");
-    if (from == "startTime") return control_.get<scalar>("startTime");
-    const scalar otherwise = given ? control_.get<scalar>("startTime") : 0;
+    if (from == "startTime") return control_.get<scalar>("startTime", dims::time);
+    const scalar otherwise = given ? control_.get<scalar>("startTime", dims::time) : 0;
     List<folderOfTime> candidates = folders();
     if (from == "firstTime") return candidates.empty() ? otherwise : candidates.front().t;
     while (!candidates.empty() && !hasState(candidates.back().name)) candidates.pop_back();

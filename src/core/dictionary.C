@@ -7,22 +7,64 @@
 namespace ispf
 {
 
+dictionary::content::content(const content& other)
+    : path(other.path),
+      scope(other.scope),
+      line(other.line),
+      lineEnd(other.lineEnd),
+      entries(other.entries),
+      header(other.header),
+      asked(other.asked)
+{
+    for (auto p = entries.begin(); p != entries.end(); ++p) enter(p);
+}
+
+void dictionary::content::enter(position p)
+{
+    positions_.emplace(p->key, p);
+    if (p->pattern) patterns_.push_back(&*p);
+}
+
 dictionaryEntry* dictionary::content::exact(const word& key)
 {
-    for (dictionaryEntry& e : entries)
-        if (e.key == key) return &e;
-    return nullptr;
+    const auto found = positions_.find(key);
+    return found == positions_.end() ? nullptr : &*found->second;
 }
 
 dictionaryEntry* dictionary::content::find(const word& key)
 {
-    dictionaryEntry* match = nullptr;
-    for (dictionaryEntry& e : entries)
+    if (dictionaryEntry* e = exact(key); e && !e->pattern) return e;
+    for (auto p = patterns_.rbegin(); p != patterns_.rend(); ++p)
+        if ((*p)->pattern->matches(key)) return *p;
+    return exact(key);
+}
+
+dictionaryEntry& dictionary::content::renewed(const token& key)
+{
+    auto pattern = keyPattern(key);
+    dictionaryEntry* old = exact(key.text);
+    if (old && !old->pattern && !pattern) *old = {};
+    else
     {
-        if (!e.pattern && e.key == key) return &e;
-        if (e.pattern && std::regex_match(key, *e.pattern)) match = &e;
+        if (old) remove(*old);
+        entries.emplace_back();
+        entries.back().key = key.text, entries.back().pattern = pattern;
+        enter(std::prev(entries.end()));
+        old = &entries.back();
     }
-    return match;
+    old->key = key.text;
+    old->file = key.file;
+    old->line = key.line;
+    return *old;
+}
+
+void dictionary::content::remove(const dictionaryEntry& e)
+{
+    const auto found = positions_.find(e.key);
+    const auto p = found->second;
+    positions_.erase(found);
+    patterns_.erase(std::remove(patterns_.begin(), patterns_.end(), &*p), patterns_.end());
+    entries.erase(p);
 }
 
 fileLocation dictionary::content::where(const dictionaryEntry& e) const
@@ -33,25 +75,13 @@ fileLocation dictionary::content::where(const dictionaryEntry& e) const
 void markRead(const dictionaryEntry& e)
 {
     *e.read = true;
-    if (e.isDict)
-        for (const dictionaryEntry& below : e.dict.content_->entries) markRead(below);
+    if (e.isDict()) e.dict->markAllRead();
 }
 
-std::shared_ptr<const std::regex> keyPattern(const token& key)
+std::optional<regularExpression> keyPattern(const token& key)
 {
-    if (key.kind != token::quoted || key.text.find_first_of(".*+?()[]{}|^$\\") == word::npos)
-        return nullptr;
-    const bool anyCase = key.text.compare(0, 4, "(?i)") == 0;
-    const auto flags = std::regex::extended | (anyCase ? std::regex::icase : std::regex::extended);
-    try
-    {
-        return std::make_shared<const std::regex>(key.text.substr(anyCase ? 4 : 0), flags);
-    }
-    catch (const std::regex_error& e)
-    {
-        throw fatalError("\"" + key.text + "\" is not a regular expression: " + e.what(),
-                         key.where());
-    }
+    if (key.kind != token::quoted || !regularExpression::isOne(key.text)) return std::nullopt;
+    return regularExpression(key.text, key.where());
 }
 
 dictionary::dictionary() : content_(std::make_unique<content>()) {}
@@ -98,6 +128,11 @@ const word& dictionary::scope() const
 {
     return content_->scope;
 }
+const dictionary& dictionary::header() const
+{
+    static const dictionary none;
+    return content_->header ? *content_->header : none;
+}
 bool dictionary::empty() const
 {
     return content_->entries.empty();
@@ -119,15 +154,15 @@ bool dictionary::found(const word& key) const
 bool dictionary::isDict(const word& key) const
 {
     const dictionaryEntry* e = read(key);
-    return e && e->isDict;
+    return e && e->isDict();
 }
 
 const dictionary* dictionary::findDict(const word& key) const
 {
     const dictionaryEntry* e = read(key);
-    if (e && !e->isDict)
+    if (e && !e->isDict())
         fail(key, "'" + key + "' is a value here, but a dictionary " + key + " { ... } is wanted.");
-    return e ? &e->dict : nullptr;
+    return e ? &*e->dict : nullptr;
 }
 
 const dictionary& dictionary::subDict(const word& key) const
@@ -156,11 +191,18 @@ List<word> dictionary::keys() const
     return all;
 }
 
+List<word> dictionary::allKeys() const
+{
+    List<word> all;
+    for (const dictionaryEntry& e : content_->entries) all.push_back(e.key);
+    return all;
+}
+
 List<word> dictionary::dictKeys() const
 {
     List<word> all;
     for (const dictionaryEntry& e : content_->entries)
-        if (!e.pattern && e.isDict) all.push_back(e.key);
+        if (!e.pattern && e.isDict()) all.push_back(e.key);
     return all;
 }
 
@@ -171,7 +213,7 @@ const dictionaryEntry& dictionary::valueEntry(const word& key) const
         throw fatalError("The entry '" + key + "' is missing." + didYouMean(key, keys()) +
                              "\nPresent: " + join(keys()),
                          where());
-    if (e->isDict) fail(key, "'" + key + "' is a dictionary here, but a value is wanted.");
+    if (e->isDict()) fail(key, "'" + key + "' is a dictionary here, but a value is wanted.");
     return *e;
 }
 
@@ -191,13 +233,9 @@ void dictionary::set(const word& key, const word& value)
 {
     dictionaryParser parser(*content_);
     List<token> tokens = parser.parseValue(value, "value of " + content_->scopeOf(key));
-    dictionaryEntry* e = content_->exact(key);
-    if (!e) e = &content_->entries.emplace_back();
-    e->key = key;
-    e->isDict = false;
-    e->dict = dictionary();
-    e->value = std::move(tokens);
-    e->read = std::make_shared<bool>(false);
+    token name;
+    name.text = key;
+    content_->renewed(name).value = std::move(tokens);
 }
 
 dictionary& dictionary::subDictOrAdd(const word& key)
@@ -205,14 +243,15 @@ dictionary& dictionary::subDictOrAdd(const word& key)
     dictionaryEntry* e = content_->exact(key);
     if (!e)
     {
-        e = &content_->entries.emplace_back();
-        e->key = key;
-        e->isDict = true;
-        e->dict.content_->path = path();
-        e->dict.content_->scope = content_->scopeOf(key);
+        token name;
+        name.text = key;
+        e = &content_->renewed(name);
+        e->dict.emplace();
+        e->dict->content_->path = path();
+        e->dict->content_->scope = content_->scopeOf(key);
     }
-    if (!e->isDict) fail(key, "'" + key + "' is a value here, but a dictionary is wanted.");
-    return e->dict;
+    if (!e->isDict()) fail(key, "'" + key + "' is a value here, but a dictionary is wanted.");
+    return *e->dict;
 }
 
 fileLocation dictionary::where() const
@@ -244,14 +283,14 @@ void dictionary::checkAllRead() const
     {
         if (*e.read)
         {
-            if (e.isDict) e.dict.checkAllRead();
+            if (e.isDict()) e.dict->checkAllRead();
             continue;
         }
         // an included file may hold settings for others, or for macros alone
         const fileLocation at = content_->where(e);
         if (at.file != path()) continue;
         const List<word> asked(content_->asked->begin(), content_->asked->end());
-        const word kind = e.isDict ? "dictionary" : "entry";
+        const word kind = e.isDict() ? "dictionary" : "entry";
         throw fatalError("Nothing reads the " + kind + " '" + e.key + "'." +
                              didYouMean(e.key, asked) + "\nValid entries here are: " +
                              (asked.empty() ? "none" : join(asked)) + "\nCorrect or remove it.",

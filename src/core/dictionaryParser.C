@@ -3,7 +3,6 @@
 
 #include "fileNames.H"
 #include <algorithm>
-#include <cstdlib>
 
 namespace ispf
 {
@@ -11,14 +10,38 @@ namespace ispf
 namespace
 {
 
-constexpr size_t depthLimit = 200;       // of nested dictionaries; far beyond any sensible case
-constexpr size_t lengthLimit = 2000000;  // of a value: macros of macros grow without bound
+constexpr size_t depthLimit = 200;         // of nested dictionaries; far beyond any sensible case
+constexpr size_t spendingLimit = 2000000;  // words that macros and includes may add
 
 }  // namespace
+
+const token& dictionaryParser::source::peek(size_t k)
+{
+    while (ahead.size() <= k) ahead.push_back(reader.next());
+    return ahead[k];
+}
+
+token dictionaryParser::source::take()
+{
+    token t = peek();
+    line = t.line;
+    if (t.kind != token::end) ahead.pop_front();
+    return t;
+}
 
 void dictionaryParser::fail(const word& message, const token& at) const
 {
     throw fatalError(message, at.where(scopes_.back()->scope));
+}
+
+// Macros of macros and files of files could grow without bound
+void dictionaryParser::spend(size_t weight, const token& at)
+{
+    spent_ += weight;
+    if (spent_ > spendingLimit)
+        fail("Macros and included files let this dictionary grow beyond " +
+                 std::to_string(spendingLimit) + " words.",
+             at);
 }
 
 void dictionaryParser::parseFile(const word& path)
@@ -26,8 +49,7 @@ void dictionaryParser::parseFile(const word& path)
     const word text = readText(path);
     if (files_.empty()) scopes_.front()->path = path;
     files_.push_back(path);
-    const List<token> tokens = tokenize(text, path);
-    source in{tokens};
+    source in(text, path);
     parseStatements(in, nullptr);
     files_.pop_back();
 }
@@ -35,52 +57,41 @@ void dictionaryParser::parseFile(const word& path)
 void dictionaryParser::parseText(const word& text, const word& name)
 {
     scopes_.front()->path = name;
-    const List<token> tokens = tokenize(text, name);
-    source in{tokens};
+    source in(text, name);
     parseStatements(in, nullptr);
 }
 
 List<token> dictionaryParser::parseValue(const word& text, const word& name)
 {
-    const List<token> tokens = tokenize(text + ";", name);
-    source in{tokens};
+    const word statement = text + "\n;";
+    source in(statement, name);
     List<token> value;
     parseValueTokens(in.peek(), in, value);
-    if (in.peek().kind != token::end) fail("Unexpected " + in.peek().described() + ".", in.peek());
+    if (in.carriesOn()) fail("Unexpected " + in.peek().described() + ".", in.peek());
     return value;
 }
 
 void dictionaryParser::parseStatements(source& in, const token* opening)
 {
+    const size_t conditions = in.conditions.size();
     for (;;)
     {
-        const token& t = in.take();
-        switch (t.kind)
-        {
-            case token::end:
-                if (opening)
-                    fail("The brace { opened here is never closed; the file ends at line " +
-                             std::to_string(t.line) + ".",
-                         *opening);
-                return;
-            case token::directive:
-                parseDirective(t, in);
-                break;
-            case token::variable:
-                parseMacroStatement(t, in);
-                break;
-            case token::plain:
-            case token::quoted:
-                parseEntry(t, in);
-                break;
-            case token::punctuation:
-                if (t.is(';')) break;  // a stray one does no harm
-                if (t.is('}') && opening) return;
-                if (t.is('}')) fail("A closing brace } without an opening one.", t);
-                [[fallthrough]];
-            default:
-                fail("A keyword is wanted here, found " + t.described() + ".", t);
-        }
+        const token t = in.take();
+        const bool ends = t.kind == token::end || (t.is('}') && opening);
+        if (ends && in.conditions.size() > conditions)
+            fail("The #" + in.conditions.back().text + " here has no #endif.",
+                 in.conditions.back());
+        if (t.kind == token::end && opening)
+            fail("The brace { opened here is never closed; the file ends at line " +
+                     std::to_string(t.line) + ".",
+                 *opening);
+        if (ends) return;
+        if (t.kind == token::directive) parseDirective(t, in);
+        else if (t.kind == token::variable) parseMacroStatement(t, in);
+        else if (t.kind == token::plain || t.kind == token::quoted) parseEntry(t, in);
+        else if (t.is('}')) fail("A closing brace } without an opening one.", t);
+        else if (!t.is(';'))  // a stray one does no harm
+            fail("A keyword is wanted here, found " + t.described() + ".", t);
     }
 }
 
@@ -96,40 +107,57 @@ void dictionaryParser::parseEntry(const token& key, source& in)
     if (parseDictMacro(key, in)) return;
     List<token> value;
     parseValueTokens(key, in, value);
-    dictionaryEntry* e = place(key, false);
-    if (!e) return;
-    e->lineEnd = value.empty() ? key.line : value.back().line;
-    e->value = std::move(value);
+    const int lineEnd = value.empty() ? key.line : value.back().line;
+    place(key, std::move(value), lineEnd);
 }
 
+dictionary dictionaryParser::newDict(const token& key)
+{
+    dictionary d;
+    d.content_->path = *key.file;
+    d.content_->scope = here().scopeOf(key.text);
+    d.content_->line = key.line;
+    return d;
+}
+
+// A dictionary is read for itself and then merged into an earlier one: its macros do not see what
+// stands in that
 void dictionaryParser::parseSubDict(const token& key, source& in)
 {
-    const token& opening = in.take();
+    if (key.text == "FoamFile" && scopes_.size() == 1) return parseHeader(key, in);
+    const token opening = in.take();
     if (scopes_.size() > depthLimit)
         fail("Dictionaries are nested deeper than " + std::to_string(depthLimit) + " levels.", key);
-    if (key.text == "FoamFile" && scopes_.size() == 1)
-    {
-        // The header describes the file and is no part of its contents
-        dictionary header;
-        scopes_.push_back(header.content_.get());
-        parseStatements(in, &opening);
-        scopes_.pop_back();
-        if (header.getOrDefault<word>("format", "ascii") != "ascii")
-            fail("The header says 'format " + header.get<word>("format") +
-                     "', but only ascii can be read.",
-                 key);
-        return;
-    }
-    dictionaryEntry* e = place(key, true);
-    dictionary ignored;
-    dictionary::content& inner = e ? *e->dict.content_ : *ignored.content_;
-    if (inner.path.empty()) inner.path = *key.file, inner.scope = here().scopeOf(key.text);
-    inner.line = key.line;
-    scopes_.push_back(&inner);
+    dictionary inner = newDict(key);
+    scopes_.push_back(inner.content_.get());
     parseStatements(in, &opening);
     scopes_.pop_back();
-    inner.lineEnd = in.tokens[in.i - 1].line;
-    if (e) e->lineEnd = inner.lineEnd;
+    inner.content_->lineEnd = in.line;
+    place(key, std::move(inner), in.line);
+}
+
+// The header describes the file and is no part of its contents
+void dictionaryParser::parseHeader(const token& key, source& in)
+{
+    const token opening = in.take();
+    const auto header = std::make_shared<dictionary>(newDict(key));
+    scopes_.push_back(header->content_.get());
+    parseStatements(in, &opening);
+    scopes_.pop_back();
+    header->content_->lineEnd = in.line;
+    if (files_.size() < 2) here().header = header;
+    if (header->chooseOrDefault("format", {"ascii", "binary"}, "ascii") == "ascii") return;
+    binaryLayout layout;
+    const word arch = header->getOrDefault<word>("arch", "LSB;label=32;scalar=64");
+    const auto has = [&](const char* what) { return arch.find(what) != word::npos; };
+    if (!(has("LSB") || has("MSB")) || !(has("label=32") || has("label=64")) ||
+        !(has("scalar=32") || has("scalar=64")))
+        header->fail("arch", "The arch \"" + arch +
+                                 "\" is not understood; it reads like \"LSB;label=32;scalar=64\".");
+    layout.bigEndian = has("MSB");
+    layout.labelSize = has("label=64") ? 8 : 4;
+    layout.scalarSize = has("scalar=64") ? 8 : 4;
+    in.reader.setBinary(layout);
 }
 
 void dictionaryParser::parseValueTokens(const token& key, source& in, List<token>& value)
@@ -137,7 +165,7 @@ void dictionaryParser::parseValueTokens(const token& key, source& in, List<token
     List<token> open;
     for (;;)
     {
-        const token& t = in.take();
+        const token t = in.take();
         if (t.is(';') && open.empty()) return;
         if (t.kind == token::end && !open.empty())
             fail("The bracket " + open.back().text + " opened here is never closed.", open.back());
@@ -158,100 +186,17 @@ void dictionaryParser::parseValueTokens(const token& key, source& in, List<token
             fail("Unexpected { in the value of '" + key.text + "'; the ';' after it is missing.",
                  key);
         if (t.is('(') || t.is('[') || t.is('{')) open.push_back(t);
-        if (t.kind == token::variable) appendMacro(t, value);
-        else if (t.kind == token::directive) refuseDirective(t, true);
+        if (t.kind == token::variable) appendMacro(t, !open.empty() && open.back().is('{'), value);
+        else if (t.kind == token::directive) appendValueDirective(key, t, in, value);
         else value.push_back(t);
     }
 }
 
-void dictionaryParser::appendMacro(const token& name, List<token>& value)
+// Makes room for an entry; null if an earlier one of that key stays
+dictionaryEntry* dictionaryParser::free(const token& key, bool isDict)
 {
-    if (const dictionaryEntry* e = lookup(name))
-    {
-        if (e->isDict)
-            fail("$" + name.text + " is a dictionary and cannot stand inside a value.", name);
-        if (value.size() + e->value.size() > lengthLimit)
-            fail("The value grows beyond " + std::to_string(lengthLimit) + " words.", name);
-        markRead(*e);
-        value.insert(value.end(), e->value.begin(), e->value.end());
-    }
-    else if (const char* variable = std::getenv(name.text.c_str()))
-        value.push_back({token::quoted, variable, name.line, name.file});
-    else fail("The macro $" + name.text + " names no entry above this line.", name);
-}
-
-bool dictionaryParser::parseDictMacro(const token& key, source& in)
-{
-    if (in.peek().kind != token::variable || !in.peek(1).is(';')) return false;
-    const dictionaryEntry* from = lookup(in.peek());
-    if (!from || !from->isDict) return false;
-    markRead(*from);
-    const dictionary copy = from->dict;  // place() may remove the original: a $a;
-    in.take(), in.take();
-    dictionaryEntry* e = place(key, true);
-    if (!e) return true;
-    dictionary::content& to = *e->dict.content_;
-    if (to.path.empty()) to.path = *key.file, to.scope = here().scopeOf(key.text);
-    to.line = e->lineEnd = key.line;
-    merge(to, *copy.content_);
-    return true;
-}
-
-void dictionaryParser::parseMacroStatement(const token& name, source& in)
-{
-    dictionaryEntry* e = lookup(name);
-    if (!e) fail("The macro $" + name.text + " names no entry above this line.", name);
-    markRead(*e);
-    if (e->isDict)
-    {
-        const dictionary copy = e->dict;  // it may enclose the place of use
-        merge(here(), *copy.content_);
-        if (in.peek().is(';')) in.take();
-        return;
-    }
-    // $name value;  the entry gives the keyword
-    if (e->value.size() != 1)
-        fail("$" + name.text + " is used as a keyword but holds more than one word.", name);
-    token key = e->value.front();
-    key.line = name.line, key.file = name.file;
-    parseEntry(key, in);
-}
-
-dictionaryEntry* dictionaryParser::lookupIn(dictionary::content& from, const word& path)
-{
-    if (dictionaryEntry* e = from.find(path)) return e;
-    for (size_t dot = path.find('.'); dot != word::npos; dot = path.find('.', dot + 1))
-    {
-        dictionaryEntry* e = from.find(path.substr(0, dot));
-        if (!e || !e->isDict) continue;
-        if (dictionaryEntry* inner = lookupIn(*e->dict.content_, path.substr(dot + 1)))
-            return inner;
-    }
-    return nullptr;
-}
-
-dictionaryEntry* dictionaryParser::lookup(const token& name)
-{
-    const word& path = name.text;
-    if (path.empty()) fail("A macro without a name.", name);
-    if (path[0] == ':') return lookupIn(*scopes_.front(), path.substr(1));
-    if (const size_t dots = path.find_first_not_of('.'); dots > 0)
-    {
-        if (dots == word::npos || dots > scopes_.size())
-            fail("$" + path + " points outside the file: there are only " +
-                     std::to_string(scopes_.size()) + " levels here.",
-                 name);
-        return lookupIn(*scopes_[scopes_.size() - dots], path.substr(dots));
-    }
-    for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope)
-        if (dictionaryEntry* e = lookupIn(**scope, path)) return e;
-    return nullptr;
-}
-
-dictionaryEntry* dictionaryParser::place(const token& key, bool isDict)
-{
-    auto& entries = here().entries;
-    if (dictionaryEntry* old = here().exact(key.text))
+    if (keyPattern(key)) spend(1000, key);  // each takes its memory
+    if (const dictionaryEntry* old = here().exact(key.text))
     {
         const word twice = "The entry '" + key.text + "' stands twice, first at line " +
                            std::to_string(old->line) + ".";
@@ -259,41 +204,55 @@ dictionaryEntry* dictionaryParser::place(const token& key, bool isDict)
         if (mode_ == inputMode::warn)
             warning(twice + " The later one, " + *key.file + " line " + std::to_string(key.line) +
                     ", is ignored.");
-        const bool merges = isDict && old->isDict && mode_ == inputMode::merge;
-        if (merges || mode_ == inputMode::protect || mode_ == inputMode::warn)
-            return merges ? old : nullptr;
-        entries.remove_if([&](const dictionaryEntry& e) { return &e == old; });
+        if (mode_ == inputMode::warn || mode_ == inputMode::protect) return nullptr;
+        if (mode_ == inputMode::merge && isDict && old->isDict()) return here().exact(key.text);
     }
-    dictionaryEntry& e = entries.emplace_back();
-    e.key = key.text;
-    e.pattern = keyPattern(key);
-    e.isDict = isDict;
-    e.file = key.file;
-    e.line = key.line;
-    return &e;
+    return &here().renewed(key);
 }
 
-void dictionaryParser::merge(dictionary::content& to, const dictionary::content& from)
+void dictionaryParser::place(const token& key, List<token>&& value, int lineEnd)
 {
-    if (scopes_.size() > depthLimit)
+    dictionaryEntry* e = free(key, false);
+    if (!e) return;
+    e->value = std::move(value);
+    e->lineEnd = lineEnd;
+}
+
+void dictionaryParser::place(const token& key, dictionary&& dict, int lineEnd)
+{
+    dictionaryEntry* e = free(key, true);
+    if (!e) return;
+    e->lineEnd = lineEnd;
+    if (e->isDict()) merge(*e->dict->content_, *dict.content_, scopes_.size());
+    else e->dict.emplace(std::move(dict));
+    e->dict->content_->lineEnd = lineEnd;
+}
+
+void dictionaryParser::merge(dictionary::content& to, const dictionary::content& from, size_t depth)
+{
+    if (depth > depthLimit)
         throw fatalError(
             "Macros nest dictionaries deeper than " + std::to_string(depthLimit) + " levels.",
             to.where());
-    scopes_.push_back(&to);
     for (const dictionaryEntry& f : from.entries)
     {
-        const token key{f.pattern ? token::quoted : token::plain, f.key, f.line, f.file};
-        dictionaryEntry* e = place(key, f.isDict);
-        if (!e) continue;
+        token key;
+        key.kind = f.pattern ? token::quoted : token::plain;
+        key.text = f.key, key.line = f.line, key.file = f.file;
+        spend(8 + f.value.size(), key);
+        dictionaryEntry* e = to.exact(f.key);
+        if (!e || !e->isDict() || !f.isDict()) e = &to.renewed(key);
         e->lineEnd = f.lineEnd;
         e->value = f.value;
-        if (!f.isDict) continue;
-        dictionary::content& inner = *e->dict.content_;
-        if (inner.path.empty()) inner.path = f.dict.path(), inner.scope = to.scopeOf(f.key);
-        inner.line = f.dict.content_->line, inner.lineEnd = f.dict.content_->lineEnd;
-        merge(inner, *f.dict.content_);
+        if (!f.isDict()) continue;
+        if (!e->isDict())
+        {
+            dictionary::content& inner = *e->dict.emplace().content_;
+            inner.path = f.dict->path(), inner.scope = to.scopeOf(f.key);
+            inner.line = f.dict->content_->line, inner.lineEnd = f.dict->content_->lineEnd;
+        }
+        merge(*e->dict->content_, *f.dict->content_, depth + 1);
     }
-    scopes_.pop_back();
 }
 
 }  // namespace ispf

@@ -124,7 +124,9 @@ word etcFile(const word& name)
     // Not the root itself: /etc belongs to the system
     for (fs::path p = program.parent_path(); p.has_relative_path(); p = p.parent_path())
         if (const word file = (p / "etc" / name).string(); isFile(file)) return file;
-    return "";
+    const char* openfoam = std::getenv("WM_PROJECT_DIR");
+    const word file = openfoam ? word(openfoam) + "/etc/" + name : "";
+    return isFile(file) ? file : "";
 }
 
 }  // namespace ispf

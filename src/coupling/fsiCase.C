@@ -16,7 +16,7 @@ namespace
 // An acceleration; what it has along z would be lost in two dimensions
 vector acceleration(const dictionary& dict, const word& key, int nDims)
 {
-    const vector a = dict.get<vector>(key);
+    const vector a = dict.get<vector>(key, dims::acceleration);
     if (nDims == 2 && a[2] != 0)
         dict.fail(key, "The case is two-dimensional, in x and y: '" + key +
                            "' must not have a component along z");
@@ -50,18 +50,20 @@ fsiCase::fsiCase(Time& t) : time(t)
 void fsiCase::readProperties()
 {
     physical = dictionary::fromFile(time.constantFile("physicalProperties"));
-    rho = physical.getInRange("rho", 1e-30, 1e30);
+    rho = physical.getInRange("rho", 1e-30, 1e30, dims::density);
     const bool hasMu = physical.found("mu"), hasNu = physical.found("nu");
     if (hasMu == hasNu)
         throw fatalError("constant/physicalProperties wants exactly one of mu [Pa s] and nu [m2/s]",
                          physical.where(hasMu ? "mu" : "rho"));
-    mu = hasMu ? physical.getInRange("mu", 0, 1e30) : rho * physical.getInRange("nu", 0, 1e30);
+    mu = hasMu ? physical.getInRange("mu", 0, 1e30, dims::dynamicViscosity)
+               : rho * physical.getInRange("nu", 0, 1e30, dims::kinematicViscosity);
     // one incompressible system for all zones: a second density has no place in it
     const dictionary zoneRho = physical.subOrEmptyDict("zoneDensities");
     for (const word& zone : zoneRho.keys())
     {
         cloud.zoneIndex(zone, zoneRho.where(zone));
-        if (const scalar r = zoneRho.get<scalar>(zone); std::abs(r - rho) > 1e-3 * rho)
+        if (const scalar r = zoneRho.get<scalar>(zone, dims::density);
+            std::abs(r - rho) > 1e-3 * rho)
             zoneRho.fail(zone,
                          "Zone " + zone + " has density " + str(r) + ", the fluid " + str(rho) +
                              ": one incompressible system solves fluid and solid together, so "
@@ -75,9 +77,9 @@ void fsiCase::readBodyForce()
     const dictionary g = dictionary::fromFileIfPresent(time.constantFile("g"));
     const dictionary perZone = physical.subOrEmptyDict("bodyForce");
     if (g.empty() && perZone.empty()) return;
-    bodyForce.assign(cloud.zones.size(),
-                     g.empty() ? vector(0, 0, 0) : acceleration(g, "value", cloud.nDims));
-    g.found("dimensions");  // OpenFOAM's
+    const scalar unit = g.found("dimensions") ? g.getUnit("dimensions", dims::acceleration) : 1;
+    const vector everywhere = g.empty() ? vector(0, 0, 0) : acceleration(g, "value", cloud.nDims);
+    bodyForce.assign(cloud.zones.size(), unit * everywhere);
     g.checkAllRead();
     for (const word& zone : perZone.keys())
         bodyForce[cloud.zoneIndex(zone, perZone.where(zone))] +=

@@ -28,7 +28,7 @@ void functionObjectList::add(const word& name, const dictionary& dict)
     i.control = dict.chooseOrDefault("writeControl", {"timeStep", "runTime", "writeTime", "none"},
                                      i.object->defaultWriteControl());
     const bool counts = i.control == "timeStep", hasInterval = counts || i.control == "runTime";
-    i.interval = i.control == "runTime" ? dict.getInRange("writeInterval", 1e-30, 1e30)
+    i.interval = i.control == "runTime" ? dict.getInRange("writeInterval", 1e-30, 1e30, dims::time)
                  : counts               ? dict.getInRangeOrDefault("writeInterval", 1, 1e9, 1)
                                         : 1;
     if (counts && i.interval != std::floor(i.interval))
@@ -36,8 +36,8 @@ void functionObjectList::add(const word& name, const dictionary& dict)
                   "With 'writeControl timeStep' this counts steps: a whole number.");
     if (!hasInterval && dict.found("writeInterval"))
         dict.fail("writeInterval", "'writeControl " + i.control + "' takes no writeInterval.");
-    i.from = dict.getOrDefault<scalar>("timeStart", -1e30);
-    i.to = dict.getOrDefault<scalar>("timeEnd", 1e30);
+    i.from = dict.getOrDefault<scalar>("timeStart", -1e30, dims::time);
+    i.to = dict.getOrDefault<scalar>("timeEnd", 1e30, dims::time);
     i.passed = multiples(i);
     items_.push_back(std::move(i));
 }

@@ -23,7 +23,8 @@ public:
     lineProfile(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, c), fields_(fieldsOf(c.cloud, dict)), sampler_(dict, c)
     {
-        const vector a = dict.get<vector>("start"), b = dict.get<vector>("end");
+        const vector a = dict.get<vector>("start", dims::length),
+                     b = dict.get<vector>("end", dims::length);
         const label n = dict.getInRangeOrDefault<label>("nPoints", 2, 1e6, 101);
         if (!((b - a).norm() > 0)) dict.fail("end", "The line has no length: start and end agree.");
         for (label k = 0; k < n; ++k) points_.push_back(a + scalar(k) / (n - 1) * (b - a));

@@ -31,7 +31,7 @@ class probes : public functionObject
 public:
     probes(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, c),
-          points_(dict.get<List<vector>>("probeLocations")),
+          points_(dict.get<List<vector>>("probeLocations", dims::length)),
           fields_(fieldsOf(c.cloud, dict)),
           sampler_(dict, c),
           files_(fields_.size())

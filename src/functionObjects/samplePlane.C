@@ -45,14 +45,14 @@ label count(const List<scalar>& range, scalar spacing)
 samplePlane::samplePlane(const word& name, const dictionary& dict)
     : name_(name),
       dict_(dict),
-      point_(dict.get<vector>("point")),
+      point_(dict.get<vector>("point", dims::length)),
       normal_(dict.get<vector>("normal").normalized()),
       xAxis_(dict.get<vector>("xAxis")),
-      xRange_(dict.get<List<scalar>>("xRange")),
-      yRange_(dict.get<List<scalar>>("yRange")),
+      xRange_(dict.get<List<scalar>>("xRange", dims::length)),
+      yRange_(dict.get<List<scalar>>("yRange", dims::length)),
       zones_(dict.get<List<word>>("zones")),
       fields_(dict.get<List<word>>("fields")),
-      images_(dict.getOrDefault<List<vector>>("images", {}))
+      images_(dict.getOrDefault<List<vector>>("images", {}, dims::length))
 {
     if (!(normal_.norm() > 0)) dict.fail("normal", "must not be zero");
     for (const char* key : {"zones", "fields"})
@@ -67,7 +67,7 @@ samplePlane::samplePlane(const word& name, const dictionary& dict)
         if (range.size() != 2 || range[0] >= range[1]) dict.fail(key, "must be (low high)");
     }
     const scalar length = std::max(xRange_[1] - xRange_[0], yRange_[1] - yRange_[0]);
-    spacing_ = dict.getInRange("spacing", length / 10000, length);
+    spacing_ = dict.getInRange("spacing", length / 10000, length, dims::length);
     for (vector& n : images_)
     {
         if (!(n.norm() > 0)) dict.fail("images", "a normal must not be zero");
@@ -76,7 +76,7 @@ samplePlane::samplePlane(const word& name, const dictionary& dict)
     if (const dictionary* slice = dict.findDict("slice"))
     {
         sliceZones_ = slice->get<List<word>>("zones");
-        sliceThickness_ = slice->getInRange("thickness", 1e-30, 1e30);
+        sliceThickness_ = slice->getInRange("thickness", 1e-30, 1e30, dims::length);
     }
 }
 

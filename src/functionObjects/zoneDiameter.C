@@ -26,8 +26,8 @@ public:
     zoneDiameter(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, c),
           surface_(dict.get<word>("surface"), c, dict.where("surface")),
-          frame_(dict.get<vector>("point"), dict.get<vector>("axis")),
-          band_(dict.getInRangeOrDefault("band", 0, 1e30, 0)),
+          frame_(dict.get<vector>("point", dims::length), dict.get<vector>("axis")),
+          band_(dict.getInRangeOrDefault("band", 0, 1e30, 0, dims::length)),
           nAngles_(2 * (dict.getInRangeOrDefault<label>("nAngles", 4, 1e6, 360) / 2)),
           images_(imagesAboutAxis(c.walls->images(), frame_)),
           rest_(measure(surface_.rest()).mean),

@@ -99,7 +99,7 @@ void springLinks::checkLattice(const dictionary& dict, const structureReference&
 
 void springLinks::setEqual(const dictionary& dict, const structureReference& ref)
 {
-    const scalar stiffness = dict.getInRange("k_e", 1e-12, 1e15) * ref.h;
+    const scalar stiffness = dict.getInRange("k_e", 1e-12, 1e15, dims::pressure) * ref.h;
     for (scalar& s : k) s *= stiffness;
     G = isotropicShear(fullestModulus(ref, pairs, k), ref.nDims);
     summary = "equal stiffness " + str(stiffness, 4) + " N/m";
@@ -114,7 +114,8 @@ void springLinks::setEqual(const dictionary& dict, const structureReference& ref
 
 void springLinks::setFitted(const dictionary& dict, const structureReference& ref)
 {
-    G = dict.found("E") ? dict.getInRange("E", 1e-12, 1e15) / 3 : dict.getInRange("G", 1e-12, 1e15);
+    G = dict.found("E") ? dict.getInRange("E", 1e-12, 1e15, dims::pressure) / 3
+                        : dict.getInRange("G", 1e-12, 1e15, dims::pressure);
     if (rule == "radius")  // a smooth end at the radius: half the scatter of a sharp one
     {
         const scalar reach = dict.get<scalar>("radius") * ref.dx;

@@ -28,7 +28,7 @@ std::unique_ptr<structureModel> structureModel::New(const dictionary& dict,
     if (dict.empty()) return nullptr;
     const word model = dict.choose("structureModel", {"springNetwork"});
     // one projection serves both media: a density jump would need a variable-density one
-    if (dict.found("rho") && std::abs(dict.get<scalar>("rho") / ref.rho - 1) > 1e-6)
+    if (dict.found("rho") && std::abs(dict.get<scalar>("rho", dims::density) / ref.rho - 1) > 1e-6)
         dict.fail("rho", "the solid's density must equal the fluid's, " + str(ref.rho) +
                              " kg/m^3: fluid and solid are solved as one medium of one density. "
                              "Leave the entry out, or change the fluid's");

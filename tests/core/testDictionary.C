@@ -44,7 +44,7 @@ TEST_CASE("values of every type")
     CHECK(d.getOrDefault<scalar>("absent", 9) == 9);
 }
 
-TEST_CASE("dimension sets, uniform and nonuniform are skipped before a value")
+TEST_CASE("dimension sets, uniform and nonuniform before a value")
 {
     const dictionary d = parsed(R"(
         nu [0 2 -1 0 0 0 0] 1e-6;
@@ -57,12 +57,12 @@ TEST_CASE("dimension sets, uniform and nonuniform are skipped before a value")
         h List<vector> 2{(1 2 3)};
         tight uniform(4 5 6);
     )");
-    CHECK(d.get<scalar>("nu") == 1e-6);
-    CHECK(d.get<scalar>("mu") == 2e-3);
-    CHECK(d.get<scalar>("k") == 3);
+    CHECK(d.get<scalar>("nu", dims::kinematicViscosity) == 1e-6);
+    CHECK(d.get<scalar>("mu", dims::dynamicViscosity) == 2e-3);
+    CHECK(d.get<scalar>("k", dims::kinematicViscosity) == 3);
     CHECK(d.get<vector>("U") == vector(0, 0, 1));
     CHECK(d.get<scalar>("T") == 300);
-    CHECK(d.get<vector>("g") == vector(0, 0, -9.81));
+    CHECK(d.get<vector>("g", dims::acceleration) == vector(0, 0, -9.81));
     CHECK(d.get<List<scalar>>("f") == List<scalar>{1, 2, 3});
     CHECK(d.get<List<vector>>("h") == List<vector>(2, vector(1, 2, 3)));
     CHECK(d.get<vector>("tight") == vector(4, 5, 6));
@@ -75,7 +75,7 @@ TEST_CASE("later definitions replace values and merge into dictionaries")
     const dictionary& s = d.subDict("s");
     CHECK(s.get<scalar>("x") == 1);
     CHECK(s.get<scalar>("y") == 2);
-    CHECK(s.keys() == List<word>{"x", "i", "y", "z"});
+    CHECK(s.keys() == List<word>{"x", "y", "i", "z"});
     CHECK(s.dictKeys() == List<word>{"i"});
     CHECK(s.subDict("i").get<scalar>("p") + s.subDict("i").get<scalar>("q") == 3);
     CHECK(parsed("a 1; a { b 2; }").subDict("a").get<scalar>("b") == 2);
@@ -183,5 +183,5 @@ TEST_CASE("toString can be read again")
     CHECK(d.keys() == List<word>{"two words", "div(phi,U)", "5", "a", "s"});
     CHECK(d.subDict("s").tokens("pp") == List<word>{"(", "1", "(", "2", "3", ")", "x", ")"});
     CHECK(d.subDict("s").get<word>("q") == "c d;");
-    CHECK(d.subDict("s").subDict("i").get<List<scalar>>("z") == List<scalar>(3, 1));
+    CHECK(d.subDict("s").subDict("i").get<List<scalar>>("z", dims::length) == List<scalar>(3, 1));
 }

@@ -18,7 +18,7 @@ constexpr scalar mostCellReynolds = 100;
 scalar chooseDeltaT(const Time& time, const couplingScheme::stepLimit& limit)
 {
     const dictionary& control = time.controlDict();
-    const scalar asked = control.getInRange("deltaT", 1e-30, 1e30);
+    const scalar asked = control.getInRange("deltaT", 1e-30, 1e30, dims::time);
     if (time.adjustTimeStep())
     {
         if (limit.dt < smallestStep * asked)
@@ -28,7 +28,7 @@ scalar chooseDeltaT(const Time& time, const couplingScheme::stepLimit& limit)
                              " s: either deltaT is far off, or the run has become unstable; then "
                              "start from an earlier time with a smaller maxDeltaT, or refine. The "
                              "times written so far are intact");
-        return std::min(limit.dt, control.getOrDefault<scalar>("maxDeltaT", asked));
+        return std::min(limit.dt, control.getOrDefault<scalar>("maxDeltaT", asked, dims::time));
     }
     if (asked > limit.dt * (1 + 1e-9))
         control.fail("deltaT", "deltaT " + str(asked) + " s is beyond the " + limit.rule +

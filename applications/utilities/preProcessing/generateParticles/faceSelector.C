@@ -33,7 +33,7 @@ faceSelector::faceSelector(const dictionary& dict)
     if (dict.found("group")) group_ = dict.get<word>("group");
     if (dict.found("box"))
     {
-        const auto corners = dict.get<List<vector>>("box");
+        const auto corners = dict.get<List<vector>>("box", dims::length);
         if (corners.size() != 2) dict.fail("box", "A box is two corners: ((x y z) (x y z)), in m");
         hasBox_ = true;
         box_.add(corners[0]), box_.add(corners[1]);

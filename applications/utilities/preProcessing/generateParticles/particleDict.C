@@ -50,17 +50,20 @@ word facesOf(const cadModel& model)
 particleDict::particleDict(const word& caseFolder)
     : caseFolder_(caseFolder), dict_(dictionary::fromFile(caseFolder + "/system/particleDict"))
 {
-    dx = dict_.getInRange("dx", 1e-12, 1e12);
+    dx = dict_.getInRange("dx", 1e-12, 1e12, dims::length);
     nDims = dict_.getOrDefault<label>("nDims", 3);
     if (nDims != 2 && nDims != 3) dict_.fail("nDims", "nDims must be 2 or 3");
     support = dx * dict_.getInRangeOrDefault("support", 1, 10, 2.6);
-    origin = dict_.getOrDefault<vector>("origin", vector::Zero());
+    origin = dict_.getOrDefault<vector>("origin", vector::Zero(), dims::length);
     stripLayers = dict_.getInRangeOrDefault<label>("stripLayers", siteFile::leastStripLayers,
                                                    siteFile::mostStripLayers, stripLayers);
-    cad_.meshSize = dict_.getInRangeOrDefault("surfaceSize", 0.01 * dx, 1000 * dx, dx);
-    if (dict_.found("timeLimit")) cad_.timeLimit = dict_.getInRange("timeLimit", 1, 1e6);
-    weldTolerance_ = dict_.getInRangeOrDefault("weldTolerance", 0, 0.5 * dx, 1e-3 * dx);
-    closeHoles_ = dict_.getInRangeOrDefault("closeHoles", 0, 1e3 * dx, dx);
+    cad_.meshSize =
+        dict_.getInRangeOrDefault("surfaceSize", 0.01 * dx, 1000 * dx, dx, dims::length);
+    if (dict_.found("timeLimit"))
+        cad_.timeLimit = dict_.getInRange("timeLimit", 1, 1e6, dims::time);
+    weldTolerance_ =
+        dict_.getInRangeOrDefault("weldTolerance", 0, 0.5 * dx, 1e-3 * dx, dims::length);
+    closeHoles_ = dict_.getInRangeOrDefault("closeHoles", 0, 1e3 * dx, dx, dims::length);
     defaultPatch_ = dict_.getOrDefault<word>("defaultPatch", "walls");
     readBoundary();
     readPatches();
@@ -80,9 +83,9 @@ void particleDict::readBoundary()
         if (type == "symmetryPlane" || type == "cyclic" || patch.found("point"))
         {
             halfSpace side;
-            side.point = patch.get<vector>("point");
+            side.point = patch.get<vector>("point", dims::length);
             const word key = type == "cyclic" ? "separation" : "normal";
-            side.normal = patch.get<vector>(key);
+            side.normal = patch.get<vector>(key, type == "cyclic" ? dims::length : dims::none);
             if (side.normal.norm() == 0) patch.fail(key, key + " must not be zero");
             const vector shift = side.normal;
             side.normal.normalize();

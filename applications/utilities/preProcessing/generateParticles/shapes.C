@@ -27,12 +27,12 @@ constexpr scalar largest(int nDims)
 
 scalar radiusOf(const dictionary& dict, const word& key, scalar dx, int nDims)
 {
-    return dict.getInRange(key, smallest * dx, largest(nDims) * dx);
+    return dict.getInRange(key, smallest * dx, largest(nDims) * dx, dims::length);
 }
 
 vector semiAxesOf(const dictionary& dict, scalar dx, int nDims)
 {
-    const vector axes = dict.get<vector>("semiAxes");
+    const vector axes = dict.get<vector>("semiAxes", dims::length);
     for (int d = 0; d < nDims; ++d)
         if (!(axes[d] >= smallest * dx && axes[d] <= largest(nDims) * dx))
             dict.fail("semiAxes", "Each of the semiAxes must lie between " + str(smallest * dx) +
@@ -54,7 +54,8 @@ std::pair<scalar, scalar> ringOf(const dictionary& dict, scalar dx, int nDims)
 // Lower and upper corner
 std::pair<vector, vector> cornersOf(const dictionary& dict, int nDims)
 {
-    const vector low = dict.get<vector>("min"), high = dict.get<vector>("max");
+    const vector low = dict.get<vector>("min", dims::length),
+                 high = dict.get<vector>("max", dims::length);
     for (int d = 0; d < nDims; ++d)
         if (!(low[d] < high[d]))
             dict.fail("max", "Every coordinate of max must be greater than that of min");
@@ -64,7 +65,8 @@ std::pair<vector, vector> cornersOf(const dictionary& dict, int nDims)
 // The ends of an axis
 std::pair<vector, vector> endsOf(const dictionary& dict)
 {
-    const vector p1 = dict.get<vector>("point1"), p2 = dict.get<vector>("point2");
+    const vector p1 = dict.get<vector>("point1", dims::length),
+                 p2 = dict.get<vector>("point2", dims::length);
     if (!((p2 - p1).norm() > 0)) dict.fail("point2", "point1 and point2 are the same point");
     return {p1, p2};
 }
@@ -182,12 +184,12 @@ triSurface flatShape(const dictionary& dict, scalar dx)
         return box(lo, hi);
     }
     if (shape == "ellipsoid")
-        return prism(dict.get<vector>("centre"), semiAxesOf(dict, dx, 2), 0, dx);
+        return prism(dict.get<vector>("centre", dims::length), semiAxesOf(dict, dx, 2), 0, dx);
     if (shape == "sphere")
-        return prism(dict.get<vector>("centre"), vector::Constant(radiusOf(dict, "radius", dx, 2)),
-                     0, dx);
-    const vector centre = dict.get<vector>("point1");
-    dict.getOrDefault<vector>("point2", centre);
+        return prism(dict.get<vector>("centre", dims::length),
+                     vector::Constant(radiusOf(dict, "radius", dx, 2)), 0, dx);
+    const vector centre = dict.get<vector>("point1", dims::length);
+    dict.getOrDefault<vector>("point2", centre, dims::length);
     if (shape == "cylinder")
         return prism(centre, vector::Constant(radiusOf(dict, "radius", dx, 2)), 0, dx);
     const auto [inner, outer] = ringOf(dict, dx, 2);
@@ -203,10 +205,10 @@ triSurface fullShape(const dictionary& dict, scalar dx)
         return box(low, high);
     }
     if (shape == "sphere")
-        return ellipsoid(dict.get<vector>("centre"),
+        return ellipsoid(dict.get<vector>("centre", dims::length),
                          vector::Constant(radiusOf(dict, "radius", dx, 3)), dx);
     if (shape == "ellipsoid")
-        return ellipsoid(dict.get<vector>("centre"), semiAxesOf(dict, dx, 3), dx);
+        return ellipsoid(dict.get<vector>("centre", dims::length), semiAxesOf(dict, dx, 3), dx);
     const auto [p1, p2] = endsOf(dict);
     if (shape == "cylinder") return tube(p1, p2, 0, radiusOf(dict, "radius", dx, 3), dx);
     const auto [inner, outer] = ringOf(dict, dx, 3);
@@ -226,11 +228,16 @@ triSurface makeShape(const dictionary& dict, scalar dx, int nDims)
 scalar shapeVolume(const dictionary& dict)
 {
     const word shape = shapeOf(dict);
-    const auto scalarOf = [&](const char* key) { return dict.get<scalar>(key); };
-    if (shape == "box") return (dict.get<vector>("max") - dict.get<vector>("min")).prod();
+    const auto scalarOf = [&](const char* key) { return dict.get<scalar>(key, dims::length); };
+    if (shape == "box")
+        return (dict.get<vector>("max", dims::length) - dict.get<vector>("min", dims::length))
+            .prod();
     if (shape == "sphere") return 4 * M_PI / 3 * std::pow(scalarOf("radius"), 3);
-    if (shape == "ellipsoid") return 4 * M_PI / 3 * dict.get<vector>("semiAxes").prod();
-    const scalar length = (dict.get<vector>("point2") - dict.get<vector>("point1")).norm();
+    if (shape == "ellipsoid")
+        return 4 * M_PI / 3 * dict.get<vector>("semiAxes", dims::length).prod();
+    const scalar length =
+        (dict.get<vector>("point2", dims::length) - dict.get<vector>("point1", dims::length))
+            .norm();
     if (shape == "cylinder") return M_PI * std::pow(scalarOf("radius"), 2) * length;
     const scalar outer = scalarOf("outerRadius"), inner = scalarOf("innerRadius");
     return M_PI * (outer * outer - inner * inner) * length;

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Prints and edits dictionaries, with the options of OpenFOAM's foamDictionary.  An edit changes the text of
+// its entry alone: comments and layout of the rest stay.  The file is replaced at once, or not at all.
+#include "argList.H"
+#include "dictionary.H"
+#include "dictionaryText.H"
+#include "fileNames.H"
+#include "token.H"
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+
+using namespace ispf;
+
+namespace
+{
+
+// :solvers.p and /solvers/p are solvers.p
+word dotted(word name)
+{
+    const bool slashes = name.find('.') == word::npos;
+    if (slashes) std::replace(name.begin(), name.end(), '/', '.');
+    if (!name.empty() && (name[0] == ':' || name[0] == '.' || name[0] == '/')) name.erase(0, 1);
+    return name;
+}
+
+// The dictionary that holds the entry of a dotted name, and its key there; null if there is none
+const dictionary* holderOf(const dictionary& d, const word& name, word& key)
+{
+    if (d.found(name)) return key = name, &d;
+    for (size_t dot = name.find('.'); dot != word::npos; dot = name.find('.', dot + 1))
+    {
+        const word first = name.substr(0, dot);
+        if (!d.isDict(first)) continue;
+        if (const dictionary* found = holderOf(d.subDict(first), name.substr(dot + 1), key))
+            return found;
+    }
+    return nullptr;
+}
+
+word differences(const dictionary& a, const dictionary& b)
+{
+    word text;
+    for (const word& key : a.allKeys())
+    {
+        if (!b.found(key)) text += a.toString(key);
+        else if (a.isDict(key) && b.isDict(key))
+        {
+            const word inner = differences(a.subDict(key), b.subDict(key));
+            if (inner.empty()) continue;
+            text += key + "\n{\n";
+            for (size_t i = 0, e; i < inner.size(); i = e)
+            {
+                e = inner.find('\n', i) + 1;
+                text += "    " + inner.substr(i, e - i);
+            }
+            text += "}\n";
+        }
+        else if (a.toString(key) != b.toString(key)) text += a.toString(key);
+    }
+    return text;
+}
+
+List<word> wordsOf(const List<token>& tokens)
+{
+    List<word> words;
+    for (const token& t : tokens)
+        if (t.kind != token::end) words.push_back(t.text);
+    return words;
+}
+
+// Does the file, read as programs do, hold the value? A macro, a file or a condition may stand in between.
+bool holds(const dictionaryText& text, const word& path, const word& name, const word& value)
+{
+    if (value.find_first_of("$#{") != word::npos) return true;
+    const dictionary d = dictionary::fromString(text.text(), path);
+    word key;
+    const dictionary* holder = holderOf(d, name, key);
+    return holder && !holder->isDict(key) &&
+           wordsOf(holder->tokenList(key)) == wordsOf(tokenize(value, path));
+}
+
+void edit(const argList& args, dictionaryText& text, const word& path)
+{
+    const word name = dotted(args.option("entry"));
+    if (args.found("remove")) text.remove(name);
+    else
+    {
+        const word value = args.option(args.found("set") ? "set" : "add");
+        if (args.found("add") && text.found(name))
+            throw fatalError(
+                "There is an entry '" + name + "' already; -set changes it, -add does not.",
+                {path, name, 0, 0});
+        const dictionaryText before = text;
+        text.set(name, value);
+        if (!holds(text, path, name, value)) text = before, text.set(name, value, true);
+        if (!holds(text, path, name, value))
+            throw fatalError("'" + name +
+                                 "' cannot be set: something else in the file decides its "
+                                 "value.",
+                             {path, name, 0, 0});
+        info() << "New entry " << text.entry(name) << "\n";
+    }
+    writeText(std::filesystem::canonical(path).string(), text.text());
+}
+
+void printExpanded(const argList& args, const word& path)
+{
+    const dictionary d = dictionary::fromFile(path);
+    if (!args.found("entry"))
+    {
+        if (args.found("keywords")) info() << join(d.allKeys(), "\n") << "\n";
+        else info() << d.toString();
+        return;
+    }
+    const word name = dotted(args.option("entry"));
+    word key;
+    const dictionary* holder = holderOf(d, name, key);
+    if (!holder)
+        throw fatalError("There is no entry '" + name + "'." + didYouMean(name, d.allKeys()) +
+                             "\nPresent: " + join(d.allKeys()),
+                         {path, "", 0, 0});
+    if (args.found("keywords")) info() << join(holder->subDict(key).allKeys(), "\n") << "\n";
+    else if (args.found("value")) info() << holder->valueText(key) << "\n";
+    else info() << holder->toString(key);
+}
+
+void print(const argList& args, const dictionaryText& text)
+{
+    const word name = dotted(args.optionOr("entry", ""));
+    if (args.found("keywords")) info() << join(text.keys(name), "\n") << "\n";
+    else if (name.empty()) info() << text.text();
+    else info() << (args.found("value") ? text.value(name) : text.entry(name)) << "\n";
+}
+
+int run(int argc, char** argv)
+{
+    argList args("ispfDictionary",
+                 "Prints and edits a dictionary. Without -expand, macros and #include stay as they "
+                 "are written.");
+    args.addArgument("dict", "the dictionary file, relative to the case");
+    args.addOption("entry", "name", "the entry, with its dictionaries: solvers.p.tolerance");
+    args.addSwitch("value", "print the value alone");
+    args.addSwitch("keywords", "list the keywords");
+    args.addSwitch("expand", "follow macros, #include, #calc and the like");
+    args.addOption("set", "value", "change the entry, or add it");
+    args.addOption("add", "value", "add the entry; an error if it is there");
+    args.addSwitch("remove", "remove the entry");
+    args.addSwitch("includes", "list the files that it includes");
+    args.addOption("diff", "dict", "print the entries that differ from those of another file");
+    if (!args.parse(argc, argv)) return 0;
+    const word path = fromFolder(args.caseFolder(), args.argument(0));
+    const int edits = args.found("set") + args.found("add") + args.found("remove");
+    if (edits > 1) throw fatalError("Only one of -set, -add and -remove can be done at a time.");
+    if (args.found("diff"))
+    {
+        const word other = fromFolder(args.caseFolder(), args.option("diff"));
+        info() << differences(dictionary::fromFile(path), dictionary::fromFile(other));
+        return 0;
+    }
+    if (args.found("expand") && edits == 0) return printExpanded(args, path), 0;
+    dictionaryText text(readText(path), path);
+    if (edits > 0) edit(args, text, path);
+    else if (args.found("includes")) info() << join(text.includes(), "\n") << "\n";
+    else print(args, text);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    return runMain([&] { return run(argc, argv); });
+}

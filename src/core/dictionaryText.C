@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dictionaryText.H"
+
+#include "regularExpression.H"
+#include <algorithm>
+
+namespace ispf
+{
+
+dictionaryText::dictionaryText(const word& text, const word& fileName)
+    : text_(text), file_(fileName)
+{
+    parse();
+}
+
+void dictionaryText::parse()
+{
+    top_ = {};
+    includes_.clear();
+    const List<token> tokens = tokenize(text_, file_);
+    size_t i = 0;
+    top_.isDict = true;
+    top_.last = top_.valueLast = text_.size();
+    parseItems(tokens, i, top_);
+    if (tokens[i].kind != token::end)
+        throw fatalError("A closing brace } without an opening one.", tokens[i].where());
+}
+
+// Entries up to the } of their dictionary, or to the end
+void dictionaryText::parseItems(const List<token>& tokens, size_t& i, item& into)
+{
+    if (into.depth > 200)
+        throw fatalError("Dictionaries are nested deeper than 200 levels.", tokens[i].where());
+    for (;;)
+    {
+        const token& t = tokens[i];
+        if (t.kind == token::end || t.is('}')) return;
+        if (t.kind == token::directive)
+        {
+            const bool includes = t.text.find("nclude") != word::npos;
+            if (includes && tokens[i + 1].kind != token::end)
+                includes_.push_back(tokens[i + 1].text);
+            // its words stand in its line
+            for (++i;
+                 tokens[i].kind != token::end && tokens[i].line == t.line && !tokens[i].is('}');)
+                ++i;
+        }
+        else if (t.is(';')) ++i;
+        else parseItem(tokens, i, into);
+    }
+}
+
+void dictionaryText::parseItem(const List<token>& tokens, size_t& i, item& into)
+{
+    const token& key = tokens[i];
+    if (key.kind == token::punctuation || key.kind == token::verbatim)
+        throw fatalError("A keyword is wanted here, found " + key.described() + ".", key.where());
+    item e;
+    e.key = key.kind == token::variable ? "$" + key.text : key.text;
+    e.isPattern = key.kind == token::quoted && regularExpression::isOne(key.text);
+    e.first = key.first, e.depth = into.depth + 1;
+    const token& next = tokens[++i];
+    e.isDict = next.is('{');
+    if (e.isDict)
+    {
+        e.valueFirst = tokens[i++].last;
+        parseItems(tokens, i, e);
+        if (tokens[i].kind == token::end)
+            throw fatalError("The brace { opened here is never closed.", next.where());
+        e.valueLast = tokens[i].first, e.last = tokens[i++].last;
+    }
+    else
+    {
+        e.valueFirst = e.valueLast = next.first;
+        for (int depth = 0; !tokens[i].is(';') || depth > 0; ++i)
+        {
+            const token& t = tokens[i];
+            depth += t.is('{') || t.is('(') || t.is('[');
+            depth -= t.is('}') || t.is(')') || t.is(']');
+            if (t.kind == token::end || depth < 0)
+                throw fatalError("The ';' after the value of '" + e.key + "' is missing.",
+                                 key.where());
+            e.valueLast = t.last;
+        }
+        e.last = tokens[i++].last;
+    }
+    into.items.push_back(std::move(e));
+}
+
+// All of that name, in order; a later dictionary merges into an earlier one
+void dictionaryText::collect(const item& in, const word& name, List<const item*>& found) const
+{
+    for (const item& e : in.items)
+    {
+        const bool matches = !e.isPattern && e.key == name;
+        if (matches) found.push_back(&e);
+        if (!e.isDict || e.isPattern || name.compare(0, e.key.size() + 1, e.key + ".") != 0)
+            continue;
+        collect(e, name.substr(e.key.size() + 1), found);
+    }
+    if (!found.empty()) return;
+    for (const item& e : in.items)
+    {
+        if (!e.isPattern) continue;
+        const regularExpression pattern(e.key, {file_, "", 0, 0});
+        if (pattern.matches(name) || e.key == name) found.push_back(&e);
+        if (e.key == name) continue;
+        for (size_t dot = name.find('.'); e.isDict && dot != word::npos;
+             dot = name.find('.', dot + 1))
+            if (pattern.matches(name.substr(0, dot))) collect(e, name.substr(dot + 1), found);
+    }
+}
+
+const dictionaryText::item* dictionaryText::find(const word& name) const
+{
+    if (name.empty()) return &top_;
+    List<const item*> all;
+    collect(top_, name, all);
+    return all.empty() ? nullptr : all.back();
+}
+
+bool dictionaryText::found(const word& name) const
+{
+    return find(name) != nullptr;
+}
+
+void dictionaryText::failMissing(const word& name) const
+{
+    const size_t dot = name.rfind('.');
+    const word parent = dot == word::npos ? "" : name.substr(0, dot);
+    const List<word> present = keys(find(parent) ? parent : "");
+    throw fatalError(
+        "There is no entry '" + name + "'." + didYouMean(name.substr(dot + 1), present) +
+            "\nPresent: " + join(present) +
+            "\n(Entries that come from a macro or an included file are found with -expand.)",
+        {file_, parent, 0, 0});
+}
+
+word dictionaryText::entry(const word& name) const
+{
+    const item* e = find(name);
+    if (!e) failMissing(name);
+    return text_.substr(e->first, e->last - e->first);
+}
+
+word dictionaryText::value(const word& name) const
+{
+    const item* e = find(name);
+    if (!e) failMissing(name);
+    return text_.substr(e->valueFirst, e->valueLast - e->valueFirst);
+}
+
+List<word> dictionaryText::keys(const word& name) const
+{
+    List<const item*> all;
+    if (name.empty()) all.push_back(&top_);
+    else collect(top_, name, all);
+    if (all.empty()) failMissing(name);
+    List<word> keys;
+    for (const item* e : all)
+        for (const item& inner : e->items)
+            if (std::find(keys.begin(), keys.end(), inner.key) == keys.end())
+                keys.push_back(inner.key);
+    return keys;
+}
+
+List<word> dictionaryText::includes() const
+{
+    return includes_;
+}
+
+void dictionaryText::replace(size_t first, size_t last, const word& by)
+{
+    const word before = text_;
+    text_.replace(first, last - first, by);
+    try
+    {
+        parse();
+    }
+    catch (const fatalError& e)
+    {
+        text_ = before;
+        parse();
+        throw fatalError(word("The new value would break the dictionary: ") + e.what());
+    }
+}
+
+// The innermost dictionary of `name` that is there; `rest` of the name is not
+const dictionaryText::item& dictionaryText::parentOf(const word& name, word& rest) const
+{
+    for (size_t dot = name.rfind('.'); dot != word::npos && dot > 0; dot = name.rfind('.', dot - 1))
+        if (const item* e = find(name.substr(0, dot)); e && e->isDict)
+        {
+            rest = name.substr(dot + 1);
+            return *e;
+        }
+    rest = name;
+    return top_;
+}
+
+namespace
+{
+
+// key value;  or  key { ... }  with the dictionaries of a dotted key around it
+word statement(const word& key, const word& value, const word& margin)
+{
+    if (const size_t dot = key.find('.'); dot != word::npos)
+        return margin + key.substr(0, dot) + "\n" + margin + "{\n" +
+               statement(key.substr(dot + 1), value, margin + "    ") + margin + "}\n";
+    if (!value.empty() && value[0] == '{') return margin + key + " " + value + "\n";
+    const word gap(key.size() < 16 ? 16 - key.size() : 1, ' ');
+    return margin + key + (value.empty() ? "" : gap + value) + ";\n";
+}
+
+}  // namespace
+
+void dictionaryText::set(const word& name, const word& value, bool append)
+{
+    const item* e = append ? nullptr : find(name);
+    const bool toDict = !value.empty() && value[0] == '{';
+    if (e && !e->isDict && !toDict)
+    {
+        const bool empty = e->valueFirst == e->valueLast;
+        return replace(e->valueFirst, e->valueLast, empty ? " " + value : value);
+    }
+    if (e)
+    {
+        const word key =
+            text_.substr(e->first, text_.find_first_of(" \t\r\n{;", e->first) - e->first);
+        return replace(e->first, e->last, key + " " + value + (toDict ? "" : ";"));
+    }
+    word rest;
+    const item& parent = parentOf(name, rest);
+    const bool top = &parent == &top_;
+    size_t at = parent.items.empty() ? parent.valueFirst : parent.items.back().last;
+    if (top && append) at = text_.find_last_not_of(" \t\r\n") + 1;
+    // Behind a comment that ends the line, but not beyond the closing brace
+    const size_t lineEnd = std::min(text_.find('\n', at), text_.size());
+    const size_t next = std::min(text_.find_first_not_of(" \t\r", at), text_.size());
+    if (next >= lineEnd || text_.compare(next, 2, "//") == 0) at = lineEnd;
+    const word margin(4 * parent.depth, ' ');
+    word addition = "\n" + statement(rest, value, margin);
+    addition.pop_back();
+    if (!top && lineEnd > parent.valueLast) addition += "\n" + margin.substr(4);
+    if (top && at == text_.size()) addition += "\n";
+    replace(at, at, at == 0 ? addition.substr(1) + "\n" : addition);
+}
+
+void dictionaryText::remove(const word& name)
+{
+    if (!found(name)) failMissing(name);
+    while (const item* e = name.empty() ? nullptr : find(name))
+    {
+        size_t first = e->first, last = e->last;
+        // with its line, if nothing else stands in it
+        const size_t lineStart = first == 0 ? 0 : text_.rfind('\n', first - 1) + 1;
+        const size_t lineEnd = std::min(text_.find('\n', last), text_.size());
+        const bool alone = text_.find_first_not_of(" \t", lineStart) == first &&
+                           text_.find_first_not_of(" \t\r", last) >= lineEnd;
+        if (alone) first = lineStart, last = std::min(lineEnd + 1, text_.size());
+        replace(first, last, "");
+    }
+}
+
+}  // namespace ispf
