@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Seeds and former findings of `make fuzz`, and a few thousand mutations of them, the same each time
+// Seeds and former findings of `make fuzz`, and a few thousand mutations of them, the same each time;
+// ISPF_MUTATIONS=n in the environment: so many of each reader
 #include "fileNames.H"
 #include "targets.H"
 
 #include <doctest/doctest.h>
+#include <unistd.h>
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <random>
@@ -52,17 +56,28 @@ word mutated(word text, std::mt19937& random)
     return text;
 }
 
-void replay(const word& name, const target& run, int mutations)
+// What the readers warn of is of no interest here
+struct quietStderr
 {
+    int kept = ::dup(STDERR_FILENO);
+    quietStderr() { REQUIRE(std::freopen("/dev/null", "w", stderr)); }
+    ~quietStderr() { ::dup2(kept, STDERR_FILENO), ::close(kept); }
+};
+
+void replay(const word& name, const target& run, size_t mutations)
+{
+    const quietStderr quiet;
     const List<word> paths = seedsOf(name);
     REQUIRE(paths.size() > 3);
+    if (const char* asked = std::getenv("ISPF_MUTATIONS"))
+        mutations = std::strtoul(asked, nullptr, 10) / paths.size() + 1;
     std::mt19937 random(1);
     for (const word& path : paths)
     {
         const word seed = readText(path);
         CAPTURE(path);
         CHECK_NOTHROW(run(seed));
-        for (int k = 0; k < mutations; ++k) CHECK_NOTHROW(run(mutated(seed, random)));
+        for (size_t k = 0; k < mutations; ++k) CHECK_NOTHROW(run(mutated(seed, random)));
     }
 }
 
