@@ -241,9 +241,12 @@ void dictionaryText::set(const word& name, const word& value, bool append)
     const word margin(4 * parent.depth, ' ');
     word addition = "\n" + statement(rest, value, margin);
     addition.pop_back();
-    if (!top && lineEnd > parent.valueLast) addition += "\n" + margin.substr(4);
+    // A brace in the same line comes into a line of its own
+    const bool closes = !top && at < parent.valueLast && lineEnd > parent.valueLast;
+    if (closes) addition += "\n" + margin.substr(4);
     if (top && at == text_.size()) addition += "\n";
-    replace(at, at, at == 0 ? addition.substr(1) + "\n" : addition);
+    if (at == 0) addition = addition.substr(1) + "\n";
+    replace(at, closes ? std::min(next, parent.valueLast) : at, addition);
 }
 
 void dictionaryText::remove(const word& name)

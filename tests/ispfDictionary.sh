@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# ispfDictionary reads and edits a file whose comments and layout must stay
+set -uo pipefail
+. "$(dirname "$0")/cases/functions"
+cd "$scratch" || exit 1
+cat > original <<'END'
+// a comment
+FoamFile { version 2.0; format ascii; class dictionary; object original; }
+endTime   1;   // [s] stays
+solvers
+{
+    "p.*" { tolerance 1e-6; }   /* for all */
+    U     { tolerance 1e-5; relTol 0.1; }
+}
+base { a 1; }
+copy { $base; b 2; }
+#if 1
+mode on;
+#else
+mode off;
+#endif
+#include "more"
+// the end
+END
+echo "fromFile 5;" > more
+# gives what options...: what it prints
+gives() {
+    local wanted=$1; shift
+    local got; got=$(ispfDictionary original "$@" 2>&1) || fail "$*: $got"
+    [ "$got" = "$wanted" ] || fail "$*: '$got', not '$wanted'"
+}
+# refuses text options...: an error that says so, and the file stays
+refuses() {
+    local wanted=$1; shift
+    cp original before
+    if ispfDictionary original "$@" > log 2>&1; then fail "$* is not refused"; fi
+    grep -q -- "$wanted" log || fail "$*: $(cat log)"
+    cmp -s original before || fail "$* touched the file"
+}
+# edits lines options...: the file differs from the original in these lines alone (as diff counts)
+edits() {
+    local wanted=$1; shift
+    cp original before
+    ispfDictionary original "$@" > log 2>&1 || fail "$*: $(cat log)"
+    local got; got=$(diff before original | grep '^[<>]')
+    [ "$got" = "$wanted" ] || fail "$*: '$got', not '$wanted'"
+    cp before original
+}
+gives 1 -entry endTime -value
+gives "endTime   1;" -entry endTime
+gives 1e-6 -entry solvers.pFinal.tolerance -value
+gives 0.1 -entry /solvers/U/relTol -value
+gives 1 -expand -entry copy.a -value
+gives on -expand -entry mode -value
+gives 5 -expand -entry fromFile -value
+gives more -includes
+gives "$(printf 'tolerance\nrelTol')" -entry solvers.U -keywords
+gives "$(cat original)"
+edits "$(printf '< endTime   1;   // [s] stays\n> endTime   2;   // [s] stays')" -entry endTime -set 2
+edits "$(printf '<     U     { tolerance 1e-5; relTol 0.1; }\n>     U     { tolerance 1e-5; relTol 0; }')" -entry solvers.U.relTol -set 0
+edits "$(printf '< copy { $base; b 2; }\n> copy { $base; b 2;\n>     a               7;\n> }')" -entry copy.a -set 7
+edits "> fromFile        6;" -entry fromFile -set 6
+edits "> mode            slow;" -entry mode -set slow  # which of the two counts is for the #if to say
+edits "< base { a 1; }" -entry base -remove
+edits "$(printf '> new\n> {\n>     key             (1 2 3);\n> }')" -entry new.key -add "(1 2 3)"
+refuses "already" -entry endTime -add 3
+refuses "There is no entry 'endTim'. Did you mean 'endTime'" -entry endTim -value
+refuses "would break" -entry endTime -set "(1 2"
+refuses "Only one" -entry endTime -set 1 -remove
+refuses "no entry" -entry nothing -remove
+refuses "option -entry is needed" -set 1
+cp original other && ispfDictionary other -entry solvers.U.relTol -set 0.2 > log
+[ "$(ispfDictionary original -diff other | tr -s ' \n' ' ')" = "solvers { U { relTol 0.1; } } " ] || fail "-diff: $(ispfDictionary original -diff other)"
+[ -z "$(ispfDictionary original -diff original)" ] || fail "-diff of a file and itself"
+ln -s original link && ispfDictionary link -entry endTime -set 3 > log
+[ -L link ] && grep -q "endTime   3;" original || fail "an edit through a link"
+[ $failures = 0 ]
