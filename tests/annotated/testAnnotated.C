@@ -28,7 +28,7 @@ const home homes[] = {
     {"core/Function1", "", "Function1"},
     {"core/TimeControls", "d", "controlDict uniformTime"},
     {"core/TimeControls", "changed.control_", "functions"},
-    {"placement/", "", "none"},
+    {"placement/|ispfDictionary", "", "none"},
     {"core/Time", "", "controlDict"},
     {"core/argList|fileFormats|cloudIO|siteFile", "", "none"},
     {".*", "args|file|patches|sum|volume_|in", "none"},
