@@ -15,7 +15,7 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
       near_(2.5 * dx),
       region_(6 * dx),
       depth_(stripLayers * dx),
-      p_(Function1::New("p", dict, caseFolder)),
+      p_(Function1::New("p", dict, caseFolder, dims::pressure)),
       backflow_(dict.getInRangeOrDefault("backflow", 0, 1, 0.5)),
       spotGrid_(1.5 * dx)
 {

@@ -17,7 +17,7 @@ wallMotion::wallMotion(const dictionary& patch, const word& caseFolder)
     direction_ = steady ? motion->get<vector>("velocity", dims::velocity)
                         : nonZero(*motion, "direction").normalized();
     if (steady) return;
-    displacement_ = Function1::New("displacement", *motion, caseFolder);
+    displacement_ = Function1::New("displacement", *motion, caseFolder, dims::length);
 }
 
 vector wallMotion::offset(scalar t) const

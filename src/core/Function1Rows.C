@@ -3,7 +3,7 @@
 #include "Function1Table.H"
 
 #include "fileNames.H"
-#include "token.H"
+#include "valueReader.H"
 #include <algorithm>
 #include <sstream>
 
@@ -92,8 +92,9 @@ word trimmed(const word& s)
 class csvReader
 {
 public:
-    csvReader(const dictionary& d, const word& path)
+    csvReader(const dictionary& d, const word& path, const dimensionSet& wanted)
         : path_(path),
+          wanted_(wanted),
           dict_(d),
           separator_(d.getOrDefault<word>("separator", ",")),
           merge_(d.getOrDefault<bool>("mergeSeparators", false)),
@@ -105,25 +106,33 @@ public:
 
     List<row> rows()
     {
-        const word refColumn = dict_.getOrDefault<word>("refColumn", "0");
-        const auto values = dict_.getOrDefault<List<word>>("componentColumns", {"1"});
+        word refColumn = dict_.getOrDefault<word>("refColumn", "0");
+        auto values = dict_.getOrDefault<List<word>>("componentColumns", {"1"});
         if (values.size() != 1) dict_.fail("componentColumns", "One column is wanted here.");
+        if (const auto both = dict_.getOrDefault<List<word>>("columns", {}); !both.empty())
+        {
+            if (both.size() != 2) dict_.fail("columns", "Two columns are wanted: (time value).");
+            refColumn = both[0], values[0] = both[1];
+        }
         const scalar scale = dict_.getOrDefault<scalar>("scale", 1);
         List<row> rows;
+        scalar timeUnit = 1, valueUnit = 1;
         std::istringstream in(readText(path_));
         word line;
         for (label left = nHeader_; std::getline(in, line);)
         {
             ++line_;
             if (trimmed(line).empty() || trimmed(line)[0] == '#') continue;
-            if (left-- > 0) header_ = split(line);
+            if (left-- > 0) readHeader(line);
             else
             {
                 const size_t first = column("refColumn", refColumn);
                 const size_t second = column("componentColumns", values[0]);
                 const List<word> cells = split(line);
                 const scalar t = cell(cells, first);
-                rows.push_back({t, scale * cell(cells, second), here()});
+                if (rows.empty())
+                    timeUnit = factor(first, dims::time), valueUnit = factor(second, wanted_);
+                rows.push_back({t * timeUnit, scale * cell(cells, second) * valueUnit, here()});
             }
         }
         return rows;
@@ -142,6 +151,33 @@ private:
             i = e + 1;
         }
         return cells;
+    }
+
+    // Names, each with its unit or without: time [s]
+    void readHeader(const word& line)
+    {
+        header_.clear(), units_.clear();
+        for (const word& cell : split(line))
+        {
+            const size_t open = cell.find('['), close = cell.rfind(']');
+            const bool hasUnit = open != word::npos && close != word::npos && close > open;
+            header_.push_back(trimmed(hasUnit ? cell.substr(0, open) : cell));
+            units_.push_back(hasUnit ? cell.substr(open + 1, close - open - 1) : "");
+        }
+        headerLine_ = here();
+    }
+
+    // To SI
+    scalar factor(size_t column, const dimensionSet& wanted) const
+    {
+        if (column >= units_.size() || units_[column].empty()) return 1;
+        const unit u = parsedUnit(units_[column], headerLine_);
+        if (wanted.known && !(u.dimensions == wanted))
+            throw fatalError("Column '" + header_[column] + "' is in [" + units_[column] +
+                                 "], of the dimensions " + u.dimensions.text() +
+                                 ",\nbut it must have " + wanted.text() + ".",
+                             headerLine_);
+        return u.factor;
     }
 
     size_t column(const word& key, const word& name) const
@@ -173,11 +209,13 @@ private:
     }
 
     word path_;
+    dimensionSet wanted_;
     const dictionary& dict_;
     word separator_;
     bool merge_;
     label nHeader_;
-    List<word> header_;
+    List<word> header_, units_;
+    fileLocation headerLine_;
     int line_ = 0;
 };
 
@@ -194,9 +232,25 @@ List<row> listFileRows(const dictionary& dict, const word& caseFolder)
     return rowReader(tokenize(readText(path), path), {path, "", 1, 0}).all();
 }
 
-List<row> csvFileRows(const dictionary& dict, const word& caseFolder)
+List<row> csvFileRows(const dictionary& dict, const word& caseFolder, const dimensionSet& wanted)
 {
-    return csvReader(dict, dataFile(dict, caseFolder)).rows();
+    return csvReader(dict, dataFile(dict, caseFolder), wanted).rows();
+}
+
+List<row> inUnits(List<row> rows, const dictionary& dict, const dimensionSet& wanted)
+{
+    if (!dict.found("units")) return rows;
+    valueReader in(dict.tokenList("units"), "units", dict.where("units"));
+    const word form = "two units, ([s] [m])";
+    in.expect('(', form);
+    if (!in.at('[')) in.fail(form);
+    const scalar t = in.readUnit(dims::time);
+    if (!in.at('[')) in.fail(form);
+    const scalar v = in.readUnit(wanted);
+    in.expect(')', form);
+    in.expectEnd();
+    for (row& r : rows) r.t *= t, r.value *= v;
+    return rows;
 }
 
 }  // namespace ispf

@@ -68,7 +68,7 @@ void valueReader::readName()
     }
 }
 
-scalar valueReader::readUnit()
+scalar valueReader::readUnit(const dimensionSet& wanted)
 {
     if (!at('[')) return 1;
     const fileLocation place = here();
@@ -80,9 +80,9 @@ scalar valueReader::readUnit()
     }
     ++i_;
     const unit u = parsedUnit(text, place);
-    if (wanted_.known && !(u.dimensions == wanted_))
+    if (wanted.known && !(u.dimensions == wanted))
         throw fatalError("'" + key_ + "' is given in [" + text + "], of the dimensions " +
-                             u.dimensions.text() + ",\nbut it must have " + wanted_.text() + ".",
+                             u.dimensions.text() + ",\nbut it must have " + wanted.text() + ".",
                          place);
     return u.factor;
 }

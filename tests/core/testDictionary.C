@@ -3,6 +3,7 @@
 #include "token.H"
 
 #include "errorOf.H"
+#include "relative.H"
 
 using namespace ispf;
 
@@ -184,4 +185,73 @@ TEST_CASE("toString can be read again")
     CHECK(d.subDict("s").tokens("pp") == List<word>{"(", "1", "(", "2", "3", ")", "x", ")"});
     CHECK(d.subDict("s").get<word>("q") == "c d;");
     CHECK(d.subDict("s").subDict("i").get<List<scalar>>("z", dims::length) == List<scalar>(3, 1));
+}
+
+TEST_CASE("units are converted to SI, and dimensions checked")
+{
+    const dictionary d = parsed(R"(
+        rho 1.06 [g/cm^3]; dt 2 [ms]; lengths (1 2.5) [mm]; before [cm] 3; numeric [1 -3] 5;
+        p 120 [mmHg]; mu 3.5 [cP]; U uniform (1 0 2) [mm/s]; angle 180 [deg]; share 5 [%];
+        speed 60 [rpm]; flow 6 [L/min]; odd 1 [(N/m)^2 m^(-3/2)]; named rho [kg m^-3] 7; none [] 3;
+        both [mm] 3 [mm]; five [0 1 -1 0 0] 2;
+    )");
+    CHECK(d.get<scalar>("rho", dims::density) == relative(1060));
+    CHECK(d.get<scalar>("dt", dims::time) == relative(2e-3));
+    CHECK(d.get<List<scalar>>("lengths", dims::length)[1] == relative(2.5e-3));
+    CHECK(d.get<scalar>("before", dims::length) == relative(0.03));
+    CHECK(d.get<scalar>("p", dims::pressure) == relative(15998.6865));
+    CHECK(d.get<scalar>("mu", dims::dynamicViscosity) == relative(3.5e-3));
+    CHECK((d.get<vector>("U", dims::velocity) - vector(1e-3, 0, 2e-3)).norm() < 1e-18);
+    CHECK(d.get<scalar>("angle") == relative(3.14159265358979));
+    CHECK(d.get<scalar>("share") == relative(0.05));
+    CHECK(d.get<scalar>("speed", dims::frequency) == relative(6.28318530717959));
+    CHECK(d.get<scalar>("flow", dims::flowRate) == relative(1e-4));
+    CHECK(d.get<scalar>("named", dims::density) == 7);
+    CHECK(d.get<scalar>("none") == 3);
+    CHECK(d.get<scalar>("five", dims::velocity) == 2);
+    CHECK_ERROR(d.get<scalar>("rho", dims::pressure), "must have [1 -1 -2 0 0 0 0] (kg m^-1 s^-2)",
+                2);
+    CHECK_ERROR(d.get<scalar>("dt"), "must have [0 0 0 0 0 0 0] (no unit)", 2);
+    CHECK_ERROR(d.get<scalar>("numeric", dims::density), "5 or 7 exponents", 2);
+    CHECK_ERROR(d.get<scalar>("both", dims::length), "a unit before and one behind", 5);
+    CHECK_ERROR(parsed("a 5 [mmhg];").get<scalar>("a"),
+                "Did you mean 'mmHg'?\nValid units are:", 1);
+    CHECK_ERROR(parsed("a 5mm;").get<scalar>("a"), "A unit stands in brackets: 5 [mm]", 1);
+    CHECK_ERROR(parsed("a 5 [m^];").get<scalar>("a"), "a number is wanted", 1);
+    CHECK_ERROR(parsed("a 5 [0];").get<scalar>("a"), "its factor is 0", 1);
+}
+
+TEST_CASE("typed lists, ASCII and binary, are kept as numbers and written again")
+{
+    const auto bytes = [](const auto& list) {
+        return word(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(list[0]));
+    };
+    const auto file = [](const word& arch, const word& list) {
+        return parsed("FoamFile { format binary; arch \"" + arch + "\"; }\nf nonuniform " + list +
+                      ";\nlast 1;");
+    };
+    const List<double> values = {1.5, -2, 1e-300, 4, 5, 6};
+    const dictionary d =
+        file("LSB;label=32;scalar=64", "List<vector> \n2\n(" + bytes(values) + ")");
+    CHECK(d.get<List<vector>>("f")[0] == vector(1.5, -2, 1e-300));
+    CHECK(d.get<label>("last") == 1);
+    CHECK(parsed(d.toString().substr(d.toString().find("f "))).get<List<vector>>("f")[1] ==
+          vector(4, 5, 6));
+    const List<float> floats = {1.5f, -2};
+    CHECK(file("LSB;label=64;scalar=32", "List<scalar> 2(" + bytes(floats) + ")")
+              .get<List<scalar>>("f") == List<scalar>{1.5, -2});
+    const List<std::int64_t> longs = {7, -8, 9};
+    CHECK(file("LSB;label=64;scalar=64", "List<label> 3(" + bytes(longs) + ")")
+              .get<List<label>>("f") == List<label>{7, -8, 9});
+    const List<std::int32_t> ints = {0x01000000};
+    CHECK(file("MSB;label=32;scalar=64", "List<label> 1(" + bytes(ints) + ")")
+              .get<List<label>>("f") == List<label>{1});
+    CHECK_ERROR(file("LSB;label=32;scalar=64", "List<scalar> 2(" + bytes(floats) + ")"),
+                "does not end where it should", 2);
+    CHECK_ERROR(file("LSB;label=32;scalar=64", "List<scalar> 999999999(1)"), "does not end", 2);
+    CHECK_ERROR(file("LSB;label=16;scalar=64", "List<scalar> 0()"), "is not understood", 1);
+    const dictionary s = parsed("t List<symmTensor> 1((1 2 3 4 5 6)); v (1 2 3 4 5 6); n 0();");
+    CHECK(s.get<tensor>("v")(1, 0) == 2);
+    CHECK(parsed(s.toString()).toString() == s.toString());
+    CHECK_ERROR(s.get<List<vector>>("t"), "with 3 components (these have 6)", 1);
 }

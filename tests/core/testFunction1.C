@@ -125,3 +125,44 @@ TEST_CASE("formulas")
     CHECK(r->value(0.25) == relative(0.5));
     CHECK(r->value(1.25) == relative(2));
 }
+
+TEST_CASE("units: behind a number, of a table, of the columns of a csv file")
+{
+    const auto inUnits = [](const word& text, const dimensionSet& wanted,
+                            const word& folder = ".") {
+        return Function1::New("f", dictionary::fromString(text, "test"), folder, wanted);
+    };
+    CHECK(inUnits("f 120 [mmHg];", dims::pressure)->value(0) == relative(15998.6865));
+    CHECK(inUnits("f constant 6 [l/min];", dims::flowRate)->value(0) == relative(1e-4));
+    const auto table =
+        inUnits("f { type table; values ((0 0) (20 3)); units ([ms] [cm]); }", dims::length);
+    CHECK(table->value(0.01) == relative(0.015));
+    const auto sine =
+        inUnits("f { type sine; frequency 60 [1/min]; amplitude 2 [mm]; }", dims::length);
+    CHECK(sine->value(0.25) == relative(0.002));
+    CHECK_ERROR(inUnits("f 120 [mmHg];", dims::length), "must have [0 1 0 0 0 0 0] (m)", 1);
+    CHECK_ERROR(inUnits("f { type table; values ((0 0)); units ([m] [m]); }", dims::length),
+                "must have [0 0 1 0 0 0 0] (s)", 1);
+    CHECK_ERROR(inUnits("f { type table; values ((0 0)); units ([s]); }", dims::length),
+                "two units", 1);
+    const temporaryFolder c;
+    c.write("a.csv", "time [ms], flow [ml/min], p [mmHg]\n0, 0, 80\n500, 60, 120\n");
+    const word csv = "f { type csvFile; file \"a.csv\"; nHeaderLine 1; columns (time ";
+    CHECK(inUnits(csv + "flow); }", dims::flowRate, c.path)->value(0.25) == relative(0.5e-6));
+    CHECK(inUnits(csv + "p); }", dims::pressure, c.path)->value(0.5) == relative(15998.6865));
+    CHECK_ERROR(inUnits(csv + "p); }", dims::flowRate, c.path), "Column 'p' is in [mmHg]", 1);
+    c.write("a.csv", "time [ms], flow [ml/mn]\n0, 0\n");
+    CHECK_ERROR(inUnits(csv + "flow); }", dims::flowRate, c.path), "Unknown unit 'mn'", 1);
+}
+
+TEST_CASE("ramps")
+{
+    const auto at = [](const word& type, scalar t) {
+        return made("f { type " + type + "; start 1; duration 2; }")->value(t);
+    };
+    for (const char* type : {"linearRamp", "quadraticRamp", "halfCosineRamp"})
+        CHECK((at(type, 0.5) == 0 && at(type, 3.5) == 1));
+    CHECK(at("linearRamp", 1.5) == 0.25);
+    CHECK(at("quadraticRamp", 2) == 0.25);
+    CHECK(at("halfCosineRamp", 2) == relative(0.5));
+}
