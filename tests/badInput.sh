@@ -74,7 +74,7 @@ refused "chamber" "sed -i 's/^\( *bath.*\)min.*/\1min (0 0 0); max (0.2 0.2 0); 
 refused "chamber|zone|particle" "sed -i 's/max (0.2 0.1 0)/max (1e-4 1e-4 0)/' system/particleDict" generateParticles  # no particle fits
 refused "min|max|chamber" "sed -i 's/max (0.2 0.1 0)/max (-0.2 0.1 0)/' system/particleDict" generateParticles
 refused "zones" "sed -i '/^zones/,\$d' system/particleDict" generateParticles
-refused "wall" "sed -i 's/^\( *wall.*\)min.*/\1min (5 5 0); max (5.1 5.1 0); }/' system/particleDict; generateParticles > o 2>&1 || { cat o >&2; exit 1; }; rm -r 0.*" ispfFsiFoam  # solid outside
+refused "solid zone wall touches no fluid.*Are the units" "sed -i 's/^\( *wall.*\)min.*/\1min (5 5 0); max (5.1 5.1 0); }/' system/particleDict" generateParticles  # solid outside
 
 # ---- text -------------------------------------------------------------------------------------------------------
 for file in $control system/sphSolution constant/boundary constant/physicalProperties; do

@@ -166,26 +166,54 @@ List<label> connectedComponents(const triSurface& s)
     return component;
 }
 
+namespace
+{
+
+// A component's triangles with nodes of their own
+List<triSurface> separated(const triSurface& s, const List<label>& component, label n)
+{
+    List<triSurface> parts(n);
+    for (label t = 0; t < s.size(); ++t)
+        parts[component[t]].add(s.corner(t, 0), s.corner(t, 1), s.corner(t, 2), 0);
+    return parts;
+}
+
+List<char> closedComponents(const triSurface& s, const List<label>& component, label n)
+{
+    List<char> open(s.nodes.size(), 0), closed(n, 1);
+    for (const auto& [a, b] : openHalfEdges(s)) open[a] = open[b] = 1;
+    for (label t = 0; t < s.size(); ++t)
+        for (const label node : s.triangles[t])
+            if (open[node]) closed[component[t]] = 0;
+    return closed;
+}
+
+}  // namespace
+
 label orientOutward(triSurface& s)
 {
     label turned = makeConsistent(s);
     const List<label> component = connectedComponents(s);
     const label n = s.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
-    List<triSurface> parts;
+    const List<triSurface> parts = separated(s, component, n);
+    const auto within = [](const boundBox& a, const boundBox& b) {
+        return b.distSqr(a.min) == 0 && b.distSqr(a.max) == 0;
+    };
+    List<label> depth(n, 0);  // the wall of a cavity lies inside an odd number
+    List<boundBox> boxes;
+    for (const triSurface& part : parts) boxes.push_back(part.bounds());
+    const List<char> closed = closedComponents(s, component, n);
+    for (label o = 0; o < n && n > 1; ++o)
+    {
+        if (!closed[o]) continue;
+        const windingNumber winding(parts[o]);
+        for (label c = 0; c < n; ++c)
+            if (o != c && within(boxes[c], boxes[o]) &&
+                std::abs(winding.value(parts[c].centre(0))) > 0.5)
+                ++depth[c];
+    }
     List<char> inward(n, 0);
-    for (label c = 0; c < n; ++c)
-    {
-        parts.push_back(s.subset([&](label t) { return component[t] == c; }));
-        inward[c] = parts[c].volume() < 0;
-    }
-    for (label c = 0; c < n && n > 1; ++c)  // the wall of a cavity lies inside an odd number
-    {
-        label depth = 0;
-        for (label o = 0; o < n; ++o)
-            if (o != c && std::abs(windingNumber(parts[o]).value(parts[c].centre(0))) > 0.5)
-                ++depth;
-        if (depth % 2) inward[c] = !inward[c];
-    }
+    for (label c = 0; c < n; ++c) inward[c] = (parts[c].volume() < 0) != (depth[c] % 2 == 1);
     for (label t = 0; t < s.size(); ++t)
         if (inward[component[t]]) turn(s, t), ++turned;
     return turned;

@@ -71,6 +71,7 @@ zoneGeometry::zoneGeometry(List<zoneInfo> zones, List<patchInfo> patches, List<b
             (box.min.array() <= box.max.array()).all())
             bounds_.add(box);
     if (nDims_ == 2) bounds_.min[2] = bounds_.max[2] = 0;
+    checkContacts();
     checkPatchNames();
     gatherPatches();
     setVolumes();

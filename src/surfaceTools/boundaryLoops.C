@@ -37,6 +37,13 @@ boundaryLoop measured(List<label> nodes, const triSurface& s)
 
 }  // namespace
 
+word place(const vector& x, scalar nothing)
+{
+    List<word> text;
+    for (const scalar value : x) text.push_back(str(std::abs(value) < nothing ? 0 : value));
+    return "(" + join(text) + ")";
+}
+
 vector boundaryLoop::normal() const
 {
     return area.norm() > 0 ? vector(area.normalized()) : vector(vector::Zero());
@@ -49,9 +56,8 @@ scalar boundaryLoop::width() const
 
 word boundaryLoop::describe(scalar dx) const
 {
-    return "at (" + str(centre[0]) + " " + str(centre[1]) + " " + str(centre[2]) + ") m, " +
-           str(size, 3) + " m = " + str(size / dx, 3) + " dx across, " +
-           std::to_string(nodes.size()) + " edges";
+    return "at " + place(centre, 1e-9 * dx) + " m, " + str(size, 3) + " m = " + str(size / dx, 3) +
+           " dx across, " + std::to_string(nodes.size()) + " edges";
 }
 
 List<boundaryLoop> boundaryLoops(const triSurface& s)

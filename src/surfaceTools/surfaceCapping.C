@@ -141,10 +141,11 @@ List<std::array<label, 3>> fillPolygon(const List<vector>& points, const vector&
     return triangles;
 }
 
-List<boundaryLoop> capEnds(triSurface& s, const List<capRequest>& requests, scalar tolerance,
-                           scalar dx)
+List<std::pair<word, boundaryLoop>> capEnds(triSurface& s, const List<capRequest>& requests,
+                                            scalar tolerance, scalar dx)
 {
-    List<boundaryLoop> loops = boundaryLoops(s);
+    const List<boundaryLoop> loops = boundaryLoops(s);
+    List<std::pair<word, boundaryLoop>> capped;
     if (loops.empty()) throw fatalError("'capping' is asked for, but the surface has no open end");
     const List<word> names = namesFor(loops, requests, dx);
     for (size_t k = 0; k < loops.size(); ++k) checkPlane(s, loops, k, names[k], tolerance, dx);
@@ -168,13 +169,14 @@ List<boundaryLoop> capEnds(triSurface& s, const List<capRequest>& requests, scal
         if (triangles.empty())
             throw fatalError("The rim of the open end " + loop.describe(dx) + " crosses itself");
         const label patch = s.addPatch(names[k]);
+        capped.emplace_back(names[k], loop);
         for (const auto& [a, b, c] : triangles)
         {
             s.triangles.push_back({ring[a], ring[b], ring[c]});
             s.patch.push_back(patch);
         }
     }
-    return loops;
+    return capped;
 }
 
 }  // namespace ispf

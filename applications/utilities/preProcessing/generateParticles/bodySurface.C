@@ -17,11 +17,6 @@ namespace
 
 constexpr scalar mostAcross = 1e7, mostParticles = 5e8, fewestParticles = 5;
 
-word place(const vector& x)
-{
-    return "(" + str(x[0]) + " " + str(x[1]) + " " + str(x[2]) + ")";
-}
-
 word inSpacings(scalar length, scalar dx)
 {
     return str(length, 3) + " m = " + str(length / dx, 3) + " dx";
@@ -48,8 +43,8 @@ public:
             info() << "    repaired    " << done << std::endl;
         cap();
         checkClosed();
-        checkScale();
         checkCrossings();
+        checkScale();
         reportFeatures();
     }
 
@@ -90,11 +85,10 @@ private:
                           "near (0 0 0); }', or say 'capping automatic;'");
         }
         else zone.choose("capping", {"automatic"});
-        label first = label(s_.patchNames.size());
-        for (const boundaryLoop& loop : capEnds(s_, requests, tolerance, dx_))
-            line("capped", s_.patchNames[std::min<size_t>(first++, s_.patchNames.size() - 1)] +
-                               " " + loop.describe(dx_) + ", normal " + place(loop.normal()) +
-                               ", rim moved by up to " + inSpacings(loop.offPlane, dx_));
+        for (const auto& [name, loop] : capEnds(s_, requests, tolerance, dx_))
+            line("capped", name + " " + loop.describe(dx_) + ", normal " +
+                               place(loop.normal(), 1e-9) + ", rim moved by up to " +
+                               inSpacings(loop.offPlane, dx_));
         orientOutward(s_);
     }
 

@@ -138,13 +138,29 @@ void particleDict::readPatches()
     }
 }
 
+// A face cannot belong to two patches
+void particleDict::checkUnnamed(const word& earlier, const word& name, const word& what,
+                                const vector& at) const
+{
+    if (!earlier.empty() && earlier != name)
+        dict_.subDict("patches").fail(name, "The patches " + earlier + " and " + name +
+                                                " both choose " + what + ", around (" + str(at[0]) +
+                                                " " + str(at[1]) + " " + str(at[2]) +
+                                                "): name it in one of them alone");
+}
+
 // Writes the patch asked for into each face's surface
 void particleDict::namePatches(cadModel& model)
 {
     for (const auto& [name, selector] : selectors_)
         for (cadFace& face : model.faces)
             if (selector.matches(face))
+            {
+                checkUnnamed(face.surface.patchNames[0], name,
+                             "face " + std::to_string(face.tag) + " of " + model.path,
+                             face.surface.bounds().centre());
                 face.surface.patchNames = {name}, foundPatches_.insert(name);
+            }
 }
 
 // The triangles of a shape have no face, colour or group: only boxes name them
@@ -156,8 +172,10 @@ void particleDict::namePatches(triSurface& shape)
             boundBox b;
             for (int k = 0; k < 3; ++k) b.add(shape.corner(t, k));
             if (nDims == 2) b.min[2] = b.max[2] = 0;
-            if (selector.holds(b))
-                shape.patch[t] = shape.addPatch(name), foundPatches_.insert(name);
+            if (!selector.holds(b)) continue;
+            checkUnnamed(shape.patchNames[shape.patch[t]], name, "the facet of a shape",
+                         b.centre());
+            shape.patch[t] = shape.addPatch(name), foundPatches_.insert(name);
         }
 }
 
