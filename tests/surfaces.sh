@@ -117,10 +117,9 @@ volumeIs() { awk -v v="$3" -v lo="$1" -v hi="$2" '/^water / { off = 100*($2/v - 
 steps() { # what: five steps from the particles made, fluid enters and leaves through the caps
     echo "coupling projection;" > system/sphSolution; : > system/sphSchemes
     echo "rho 1000; mu 4e-3;" > constant/physicalProperties
-    echo "startTime 0; endTime 5e-3; deltaT 1e-3; writeControl timeStep; writeInterval 5;
-" > system/controlDict
+    echo "startTime 0; endTime 5e-3; deltaT 1e-3; writeControl timeStep; writeInterval 5;" > system/controlDict
     { solve && [ -f 0.005/particles.hdf ]; } || fail "$1: $(tail -n 8 log)"
-    rm -rf 0.* postProcessing
+    rm -rf 0.*
 }
 
 vessel tube 'Cylinder(1) = {0, 0, 0, 0, 0, 16, 5};
