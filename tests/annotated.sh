@@ -7,7 +7,7 @@ set -uo pipefail
 annotated=$cases/../../etc/caseDicts/annotated
 annotatedCase() {
     rm -rf "$scratch/case"; mkdir -p "$scratch/case/system" "$scratch/case/constant"; cd "$scratch/case" || exit 1
-    cp "$annotated"/{controlDict,functions,particleDict,sphSchemes,sphSolution,planeSampleDict} system/
+    cp "$annotated"/{controlDict,functions,particleDict,sphSchemes,sphSolution} system/
     cp "$annotated"/{boundary,g,physicalProperties,structureProperties} constant/
 }
 annotatedCase; place
@@ -15,8 +15,8 @@ solved
 [ -e 0.02/particles.hdf ] && [ -e 0.015/particles.hdf ] || fail "no result: $(ls)"
 [ "$(ls postProcessing | paste -sd ' ')" = "$(awk '/^    my/ { print $1 }' system/functions | sort | paste -sd ' ') volumeLedger" ] ||
     fail "function objects: $(ls postProcessing)"
-planeSample > log 2>&1 || fail "planeSample: $(tail -n 5 log)"
-[ -s postProcessing/planeSample/0.02/myPlane.slice.dat ] || fail "no slice"
+[ -s postProcessing/myMap/0.02/myMap.slice.dat ] || fail "no slice"
+ispfPostProcess > log 2>&1 || fail "ispfPostProcess: $(tail -n 5 log)"
 checkParticles > log 2>&1 || grep -q "^Particles" log || fail "checkParticles: $(tail -n 5 log)"
 setEntry system/sphSolution coupling projection
 setEntry constant/structureProperties E 30; sed -i 's/^mu .*/mu 1e-3;/' constant/physicalProperties

@@ -109,15 +109,8 @@ denied() { # what is said, command
 }
 newCase membrane programs; place
 denied "numbers from 2 to 100" calibrateSprings -layers 1000000000
-denied "Cannot read .*planeSampleDict: No such file" planeSample
-: > system/planeSampleDict
-denied "There is no plane" planeSample
-echo "a { point (0 0 0); normal (0 0 1); xAxis (1 0 0); xRange (0 0.2); yRange (0 0.2); spacing 0.01;
-    fields (U p); zones (bath); }" > system/planeSampleDict
-denied "is not a list of numbers" planeSample -times ""
-denied "the nearest time is 0" planeSample -times 5
 truncate -s 3000 0/particles.hdf
-for program in ispfFsiFoam checkParticles "calibrateSprings -bodyOnly" planeSample; do
+for program in ispfFsiFoam checkParticles "calibrateSprings -bodyOnly"; do
     # shellcheck disable=SC2086
     denied "Cannot read '.*/0/particles.hdf': not an HDF5 file, or truncated" $program
 done

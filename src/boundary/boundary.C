@@ -199,6 +199,36 @@ scalar boundary::symmetryFactor() const
     return content_->group.symmetryFactor();
 }
 
+triSurface boundary::surfaceOf(const word& name, const particleCloud& cloud,
+                               const fileLocation& where) const
+{
+    boundBox region;
+    for (label i = 0; i < cloud.n(); ++i) region.add(cloud.x[i].xyz());
+    region.min.array() -= 0.5 * cloud.dx, region.max.array() += 0.5 * cloud.dx;
+    const wall& w = content_->walls.named(name, where);
+    const triSurface s =
+        content_->walls.surfaceOf(label(&w - content_->walls.walls().data()), region);
+    return s.subset([&](label t) { return content_->group.beyond(s.centre(t)) < 1e-6 * cloud.dx; });
+}
+
+bool boundary::isTwoSided(const word& name) const
+{
+    return content_->walls.named(name).twoSided;
+}
+
+List<word> boundary::movingWalls() const
+{
+    List<word> names;
+    for (const wall& w : content_->walls.walls())
+        if (w.motion.moves() || !w.motion.slide().isZero(0)) names.push_back(w.name);
+    return names;
+}
+
+vector boundary::wallVelocity(const word& name, const vector&) const
+{
+    return content_->walls.named(name).velocity;
+}
+
 scalar boundary::maxWallSpeed() const
 {
     return content_->walls.maxSpeed();

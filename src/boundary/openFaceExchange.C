@@ -163,7 +163,8 @@ scalar openFace::lag(const census& c, const spot& at) const
     return weights > 0 ? sum / weights : 0;
 }
 
-// All fields of a newcomer are the weighted mean of its zone's particles within 1.5 dx
+// All fields of a newcomer are the weighted mean of its zone's particles within 1.5 dx, integers
+// those of the nearest
 void openFace::insert(particleCloud& cloud, const census& c, const List<label>& chosen) const
 {
     const label before = cloud.n();
@@ -172,7 +173,11 @@ void openFace::insert(particleCloud& cloud, const census& c, const List<label>& 
     {
         const spot& at = spots_[chosen[k]];
         const label i = before + label(k);
+        scalar nearest = 0;
         c.around(at.x, at.zone, [&](label j, scalar w) {
+            if (w > nearest)
+                for (auto& [name, field] : cloud.integers) field[i] = field[j];
+            nearest = std::max(nearest, w);
             cloud.Up[i].s += w * cloud.Up[j].s;
             for (auto& [name, field] : cloud.vectors) field[i].s += w * field[j].s;
             for (auto& [name, field] : cloud.scalars) field[i] += w * field[j];

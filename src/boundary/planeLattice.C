@@ -188,6 +188,24 @@ void planeLattice::cover(const particleCloud& cloud, List<wall>& walls)
         if (made(w) && w.motion.moves()) addMoving(frameOf(w.normal, walls), w);
 }
 
+triSurface planeLattice::rectangle(const vector& point, const vector& normal,
+                                   const List<wall>& walls, const boundBox& region) const
+{
+    planeLattice here = *this;
+    here.covered_ = region;
+    const frame f = here.frameOf(normal, walls);
+    const scalar half = 0.5 * dx_;
+    const auto at = [&](bool q, bool r) -> vector {
+        const scalar along = q ? f.a[1].high : f.a[1].low;
+        const scalar across = nDims_ == 2 ? (r ? half : -half) : r ? f.a[2].high : f.a[2].low;
+        return point.dot(normal) * normal + along * f.a[1].e + across * f.a[2].e;
+    };
+    triSurface s;
+    s.patchNames = {"plane"};
+    s.add(at(0, 0), at(1, 0), at(1, 1), 0), s.add(at(0, 0), at(1, 1), at(0, 1), 0);
+    return s;
+}
+
 scalar planeLattice::area(const wall& w, const List<wall>& walls) const
 {
     const frame f = frameOf(w.normal, walls);

@@ -113,6 +113,34 @@ vector wallSet::planeArea(const wall& w) const
     return lattice_.area(w, walls_) * w.normal;
 }
 
+const wall& wallSet::named(const word& name, const fileLocation& where) const
+{
+    List<word> names;
+    for (const wall& w : walls_)
+    {
+        if (w.name == name) return w;
+        names.push_back(w.name);
+    }
+    throw fatalError("There is no wall '" + name + "'." + didYouMean(name, names) + "\n" +
+                         validWords("wall", names),
+                     where);
+}
+
+triSurface wallSet::surfaceOf(label w, const boundBox& region) const
+{
+    triSurface s;
+    if (walls_[w].plane) s = lattice_.rectangle(walls_[w].point, walls_[w].normal, walls_, region);
+    for (const body& b : bodies_)
+        for (size_t k = 0; k < b.walls.size() && !walls_[w].plane; ++k)
+            if (b.walls[k] == w)
+            {
+                const triSurface& all = *b.surface->mesh();
+                s = all.subset([&](label t) { return all.patch[t] == label(k); });
+            }
+    for (vector& x : s.nodes) x += walls_[w].offset;
+    return s;
+}
+
 List<scalar> wallSet::moveTo(scalar t)
 {
     List<scalar> swept(walls_.size(), 0);
@@ -142,7 +170,7 @@ bool wallSet::clear(const vector& x, scalar distance) const
 {
     for (const body& b : bodies_)
     {
-        const surfaceFoot f = b.surface->find(x - offset(b));
+        const surfaceFoot f = b.surface->find(x);
         if (b.twoSided && f.aside > 0) continue;
         if (f.found && f.depth > -distance) return false;
     }

@@ -20,17 +20,37 @@ constexpr scalar never = std::numeric_limits<scalar>::infinity();
 
 }  // namespace
 
-Time::Time(const word& caseFolder) : case_(caseFolder), start_(std::chrono::steady_clock::now())
+Time::Time(const word& caseFolder, bool postProcessing)
+    : case_(caseFolder), postProcessing_(postProcessing), start_(std::chrono::steady_clock::now())
 {
     control_ = dictionary::fromFile(controlFile());
     controlStamp_ = modificationStamp(controlFile());
     readControls(control_);
+}
+
+Time Time::postProcess(const word& caseFolder)
+{
+    return Time(caseFolder, true);
+}
+
+Time::Time(const word& caseFolder) : Time(caseFolder, false)
+{
     startTime_ = value_ = previous_ = chosenStart();
     readState();
     if (!run())
         warning(
             "endTime " + str(endTime_) + " is not after the start " + str(value_) +
             ": there is nothing to run. Raise endTime, or let startFrom choose an earlier start");
+}
+
+void Time::goTo(scalar t)
+{
+    const scalar start = startTime_;
+    startTime_ = value_ = previous_ = t;
+    writeNow_ = answer::unknown;
+    readState();
+    if (started_) startTime_ = start;
+    started_ = true;
 }
 
 // Rounding errors of the clock, far below any step
@@ -49,8 +69,11 @@ scalar Time::nextTarget() const
 {
     const scalar now = value_ + slack();
     scalar target = endTime_ > now ? endTime_ : never;
-    if (writeControl_ == "adjustableRunTime")
-        target = std::min(target, writeInterval_ * (std::floor(now / writeInterval_) + 1));
+    const auto multiple = [&](scalar interval) {
+        target = std::min(target, interval * (std::floor(now / interval) + 1));
+    };
+    if (writeControl_ == "adjustableRunTime") multiple(writeInterval_);
+    for (const scalar interval : hitIntervals_) multiple(interval);
     const auto next = std::upper_bound(writeTimes_.begin(), writeTimes_.end(), now);
     return next == writeTimes_.end() ? target : std::min(target, *next);
 }
@@ -153,6 +176,11 @@ void Time::requestStop(bool write)
 {
     stop_ = true;
     stopWrites_ = stopWrites_ || write;
+}
+
+void Time::alsoHit(scalar interval)
+{
+    hitIntervals_.push_back(interval);
 }
 
 void Time::signalled()

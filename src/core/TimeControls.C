@@ -15,6 +15,7 @@ namespace ispf
 namespace
 {
 
+constexpr int byKind = 0;  // writePrecision
 constexpr scalar never = std::numeric_limits<scalar>::infinity();
 
 word formattedTime(const char* form, int precision, scalar t)
@@ -52,9 +53,7 @@ void Time::readControls(const dictionary& d)
     readWriteControls(d);
     for (const char* key : {"startFrom", "startTime"}) d.found(key);
     // What an OpenFOAM user writes here but has no effect on us
-    for (const char* key : {"application", "graphFormat", "libs", "writeCompression", "writeFormat",
-                            "writePrecision"})
-        d.found(key);
+    for (const char* key : {"application", "graphFormat", "libs", "writeCompression"}) d.found(key);
 }
 
 void Time::readWriteControls(const dictionary& d)
@@ -74,6 +73,8 @@ void Time::readWriteControls(const dictionary& d)
     }
     writeTimes_ = d.getOrDefault<List<scalar>>("writeTimes", {}, dims::time);
     std::sort(writeTimes_.begin(), writeTimes_.end());
+    ascii_ = d.chooseOrDefault("writeFormat", {"ascii", "hdf5", "binary"}, "hdf5") == "ascii";
+    writePrecision_ = d.getInRangeOrDefault<label>("writePrecision", 1, 17, byKind);
     purge_ = d.getInRangeOrDefault<label>("purgeWrite", 0, 1e9, 0);
     format_ = d.chooseOrDefault("timeFormat", {"general", "fixed", "scientific"}, "general");
     precision_ = std::max(grownPrecision_, d.getInRangeOrDefault<label>("timePrecision", 1, 17, 6));
@@ -135,25 +136,31 @@ word Time::folderName(scalar t) const
 
 bool Time::hasState(const word& name) const
 {
-    return isFile(case_ + "/" + name + "/particles.hdf");
+    const word folder = case_ + "/" + name;
+    return isFile(folder + "/particles.hdf") || isFile(folder + "/uniform/particles");
 }
 
 // The folder name holds few digits; uniform/time holds all of them
 void Time::readState()
 {
-    const word folder = folderName(value_);
-    const dictionary d = dictionary::fromFileIfPresent(case_ + "/" + folder + "/uniform/time");
-    if (d.empty()) return;
-    const scalar exact = d.get<scalar>("value");
-    if (folder != timeName(exact) && !isNameOf(folder, exact))
+    const dictionary d = dictionary::fromFileIfPresent(folder() + "/uniform/time");
+    hasClock_ = !d.empty();
+    if (hasClock_)
+        recall(d.get<scalar>("value"), d.get<label>("index"), d.get<scalar>("deltaT"), d.path());
+}
+
+void Time::recall(scalar value, label index, scalar deltaT, const word& source)
+{
+    const word name = folderName(value_);
+    if (name != timeName(value) && !isNameOf(name, value))
     {
-        warning(d.path() + " speaks of time " + str(exact, 10) +
+        warning(source + " speaks of time " + str(value, 10) +
                 ", its folder of another: the folder's name is believed.");
         return;
     }
-    startTime_ = value_ = previous_ = exact;
-    index_ = d.get<label>("index");
-    if (adjust_) deltaT_ = std::min(d.get<scalar>("deltaT"), maxDeltaT_);
+    startTime_ = value_ = previous_ = value;
+    index_ = index;
+    if (adjust_ || postProcessing_) deltaT_ = std::min(deltaT, maxDeltaT_);
 }
 
 void Time::writeState() const

@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <list>
+#include <set>
 #include <string_view>
 
 namespace ispf
@@ -54,15 +56,20 @@ public:
         }
     }
 
-    void moveIntoPlace()
+    // To disk, under the temporary name still
+    void finish()
     {
         if (::fsync(descriptor_) != 0) fail(path_, "flushing to disk", errno);
         const int closed = ::close(descriptor_);
         descriptor_ = -1;
         if (closed != 0) fail(path_, "closing", errno);
+    }
+    void moveIntoPlace()
+    {
         if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "renaming", errno);
         moved_ = true;
     }
+    const word& path() const { return path_; }
 
 private:
     word path_, temporary_;
@@ -83,17 +90,31 @@ void syncFolder(const word& path, const word& folder)
 
 }  // namespace
 
+void writeTexts(const List<namedText>& files)
+{
+    std::list<temporaryFile> written;
+    for (const auto& [path, text] : files)
+    {
+        const word folder = folderOf(path).empty() ? "." : folderOf(path);
+        std::error_code error;
+        std::filesystem::create_directories(folder, error);
+        if (error) fail(path, "creating folder '" + folder + "'", error.value());
+        written.emplace_back(path);
+        written.back().write(text);
+        written.back().finish();
+    }
+    std::set<word> folders;
+    for (temporaryFile& file : written)
+    {
+        file.moveIntoPlace();
+        folders.insert(folderOf(file.path()).empty() ? "." : folderOf(file.path()));
+    }
+    for (const word& folder : folders) syncFolder(files.front().path, folder);
+}
+
 void writeText(const word& path, const word& text)
 {
-    const word folder = folderOf(path).empty() ? "." : folderOf(path);
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) fail(path, "creating folder '" + folder + "'", error.value());
-
-    temporaryFile file(path);
-    file.write(text);
-    file.moveIntoPlace();
-    syncFolder(path, folder);
+    writeTexts({{path, text}});
 }
 
 }  // namespace ispf

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cloudIO.H"
 
+#include "particleState.H"
+
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
@@ -58,19 +60,62 @@ void writeZones(const particleCloud& cloud, particleTable& table)
     table.attributes["phases"] = join(phases);
 }
 
-}  // namespace
+const char* const balanceOf = "balance.";
+constexpr size_t balanceSize = 4;
 
-void readCloud(Time& time, particleCloud& cloud)
+// By what readCloud and tableOf take care of themselves
+bool isKnown(const word& attribute)
 {
-    const word file = time.folder() + "/particles.hdf";
-    const particleTable table = readParticles(file);
-    if (table.size() == 0) throw fatalError(file + " holds no particle");
-    cloud.nDims = int(table.scalarAttribute("nDims"));
-    cloud.dx = table.scalarAttribute("dx");
-    if (cloud.nDims != 2 && cloud.nDims != 3) throw fatalError(file + ": nDims must be 2 or 3");
-    if (!(cloud.dx > 0)) throw fatalError(file + ": dx must be positive");
-    cloud.zones = zonesOf(table, file);
+    for (const char* known :
+         {"nDims", "dx", "time", "timeIndex", "deltaT", "nextId", "zones", "phases"})
+        if (attribute == known) return true;
+    return false;
+}
 
+// Where the last state is no good, the one before is the user's to choose
+particleTable readStateOf(const Time& time)
+{
+    try
+    {
+        return readState(time.folder());
+    }
+    catch (const fatalError& e)
+    {
+        word before;
+        for (const Time::folderOfTime& f : time.folders())
+            if (f.t < time.value() && time.hasState(f.name)) before = f.name;
+        if (before.empty()) throw;
+        const word advice = "\nTo continue from time " + before + ", move the folder " +
+                            time.folder() + " away, or set startFrom startTime and startTime " +
+                            before + " in system/controlDict.";
+        if (e.hasLocation()) throw fatalError(e.what() + advice, e.location());
+        throw fatalError(e.what() + advice);
+    }
+}
+
+// <file>.series for ParaView, with all times that have such a file; none where no time has
+void writeSeriesOf(const Time& time, const word& file, const List<word>& without)
+{
+    List<seriesEntry> series;
+    for (const auto& [t, folder] : time.folders())
+        if (std::find(without.begin(), without.end(), folder) == without.end() &&
+            fs::exists(time.caseFolder() + "/" + folder + "/" + file))
+            series.push_back({t, folder + "/" + file});
+    const word path = time.caseFolder() + "/" + file + ".series";
+    if (!series.empty()) writeSeries(path, series);
+    else fs::remove(path);
+}
+
+void setClock(Time& time, const particleTable& table, const word& file)
+{
+    if (time.hasClock() || !table.attributes.count("timeIndex")) return;
+    warning(time.folder() + "/uniform/time is missing: the clock is set from the particles");
+    time.recall(table.scalarAttribute("time"), label(table.scalarAttribute("timeIndex")),
+                table.scalarAttribute("deltaT"), file);
+}
+
+void readParticlesOf(const particleTable& table, const word& file, particleCloud& cloud)
+{
     const auto column = [&](const auto& columns, const char* name) -> const auto&
     {
         const auto it = columns.find(name);
@@ -89,8 +134,14 @@ void readCloud(Time& time, particleCloud& cloud)
                              std::to_string(cloud.zones.size()));
         cloud.append(table.x[i], std::uint8_t(zone[i]), vec4::from(U[i], p[i]), id[i]);
     }
+}
+
+void readFields(const particleTable& table, particleCloud& cloud)
+{
     for (const auto& [name, values] : table.scalars)
         if (name != "p") cloud.scalars[name] = values;
+    for (const auto& [name, values] : table.integers)
+        if (name != "zone" && name != "id") cloud.integers[name] = values;
     for (const auto& [name, values] : table.vectors)
         if (name != "U")
         {
@@ -107,26 +158,10 @@ void readCloud(Time& time, particleCloud& cloud)
         x0 = cloud.x;
         std::fill(x0.begin() + cloud.nSolid(), x0.end(), vec4{});
     }
-    for (const auto& [name, values] : table.extra)
-        if (name.rfind("history.", 0) == 0) cloud.history[name.substr(8)] = values;
-    if (const auto next = table.attributes.find("nextId"); next != table.attributes.end())
-        cloud.setNextId(std::stoll(next->second));
 }
 
-void restoreBalance(const Time& time, boundary& walls)
+particleTable tableOf(const Time& time, const particleCloud& cloud, const boundary& walls)
 {
-    const particleTable table = readParticles(time.folder() + "/particles.hdf");
-    List<patchBalance> balance = walls.balance();
-    for (patchBalance& b : balance)
-        if (const auto it = table.extra.find("balance." + b.name); it != table.extra.end())
-            b.swept = it->second.at(0), b.created = label(it->second.at(1)),
-            b.deleted = label(it->second.at(2)), b.pushed = label(it->second.at(3));
-    walls.restoreBalance(balance);
-}
-
-void writeCloud(Time& time, const particleCloud& cloud, const boundary& walls)
-{
-    cloud.checkFinite(time.value());
     particleTable table;
     for (label i = 0; i < cloud.n(); ++i)
     {
@@ -137,32 +172,72 @@ void writeCloud(Time& time, const particleCloud& cloud, const boundary& walls)
         table.integers["id"].push_back(cloud.id[i]);
     }
     for (const auto& [name, values] : cloud.scalars) table.scalars[name] = values;
+    for (const auto& [name, values] : cloud.integers) table.integers[name] = values;
     for (const auto& [name, values] : cloud.vectors)
         for (label i = 0; i < cloud.n(); ++i)
         {
             table.vectors[name].push_back(values[i].xyz());
             if (name != "x0") table.scalars[name + ":w"].push_back(values[i][3]);
         }
+    table.extra = cloud.history;
     for (const patchBalance& b : walls.balance())
-        table.extra["balance." + b.name] = {b.swept, scalar(b.created), scalar(b.deleted),
-                                            scalar(b.pushed)};
-    for (const auto& [name, values] : cloud.history) table.extra["history." + name] = values;
+        table.extra[balanceOf + b.name] = {b.swept, scalar(b.created), scalar(b.deleted),
+                                           scalar(b.pushed)};
+    table.attributes = cloud.notes;
     table.setAttribute("nDims", cloud.nDims), table.setAttribute("dx", cloud.dx);
-    table.setAttribute("time", time.value());
+    table.setAttribute("time", time.value()), table.setAttribute("timeIndex", time.timeIndex());
+    table.setAttribute("deltaT", time.deltaT());
     table.attributes["nextId"] = std::to_string(cloud.nextId());
     writeZones(cloud, table);
+    return table;
+}
 
-    // particles.hdf last: it makes the folder one to continue from
-    fs::create_directories(time.folder());
-    time.writeState();
-    writeParticles(table, time.folder() + "/particles.hdf");
+}  // namespace
+
+void readCloud(Time& time, particleCloud& cloud)
+{
+    const word file = time.folder();
+    const particleTable table = readStateOf(time);
+    if (table.size() == 0) throw fatalError(file + " holds no particle");
+    setClock(time, table, file);
+    cloud.nDims = int(table.scalarAttribute("nDims"));
+    cloud.dx = table.scalarAttribute("dx");
+    if (cloud.nDims != 2 && cloud.nDims != 3) throw fatalError(file + ": nDims must be 2 or 3");
+    if (!(cloud.dx > 0)) throw fatalError(file + ": dx must be positive");
+    cloud.zones = zonesOf(table, file);
+    readParticlesOf(table, file, cloud);
+    readFields(table, cloud);
+    for (const auto& [name, values] : table.extra)  // version 1: "history.<name>"
+        cloud.history[name.rfind("history.", 0) == 0 ? name.substr(8) : name] = values;
+    for (const auto& [name, text] : table.attributes)
+        if (!isKnown(name)) cloud.notes[name] = text;
+    if (table.attributes.count("nextId") && table.scalarAttribute("nextId") > 0)
+        cloud.setNextId(std::stoll(table.attributes.at("nextId")));
+}
+
+void restoreBalance(const particleCloud& cloud, boundary& walls)
+{
+    List<patchBalance> balance = walls.balance();
+    for (patchBalance& b : balance)
+        if (const auto it = cloud.history.find(balanceOf + b.name);
+            it != cloud.history.end() && it->second.size() >= balanceSize)
+            b.swept = it->second[0], b.created = label(it->second[1]),
+            b.deleted = label(it->second[2]), b.pushed = label(it->second[3]);
+    walls.restoreBalance(balance);
+}
+
+void writeCloud(Time& time, const particleCloud& cloud, const boundary& walls)
+{
+    cloud.checkFinite(time.value());
+    const particleTable table = tableOf(time, cloud, walls);
+
+    time.writeState();  // first: with its particles the folder is one to continue from
+    writeState(table, time.folder(), time.writesAscii() ? stateFormat::ascii : stateFormat::hdf5,
+               time.writePrecision() ? time.writePrecision() : 6);
 
     const List<word> purge = time.toPurge();
-    List<seriesEntry> series;
-    for (const auto& [t, folder] : time.folders())
-        if (time.hasState(folder) && std::find(purge.begin(), purge.end(), folder) == purge.end())
-            series.push_back({t, folder + "/particles.hdf"});
-    writeSeries(time.caseFolder() + "/particles.hdf.series", series);
+    for (const word file : {"particles.hdf", "particles.vtp"})  // before their files go
+        writeSeriesOf(time, file, purge);
     for (const word& folder : purge) fs::remove_all(time.caseFolder() + "/" + folder);
 }
 

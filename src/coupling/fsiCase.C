@@ -4,6 +4,7 @@
 #include "cloudIO.H"
 #include "sphc.H"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -32,10 +33,7 @@ fsiCase::fsiCase(Time& t) : time(t)
     readCloud(time, cloud);
     readProperties();
     readKernel();
-    walls = std::make_unique<boundary>(caseFolder(),
-                                       dictionary::fromFile(time.constantFile("boundary")), cloud,
-                                       kernel->support(), time.value());
-    restoreBalance(time, *walls);
+    readBoundary();
     readStructure();
     coupling = solution.chooseOrDefault("coupling", {"projection", "monolithic"},
                                         structure ? "monolithic" : "projection");
@@ -45,6 +43,29 @@ fsiCase::fsiCase(Time& t) : time(t)
             d && (coupling == "monolithic") != (word(name) == "monolithic"))
             d->markAllRead();
     if (coupling == "monolithic") schemes.found("divergence"), schemes.found("gradient");
+}
+
+void fsiCase::readBoundary()
+{
+    walls = std::make_unique<boundary>(caseFolder(),
+                                       dictionary::fromFile(time.constantFile("boundary")), cloud,
+                                       kernel->support(), time.value());
+    restoreBalance(cloud, *walls);
+}
+
+void fsiCase::read()
+{
+    particleCloud then;
+    readCloud(time, then);
+    const auto same = [](const zoneInfo& a, const zoneInfo& b) { return a.name == b.name; };
+    if (then.nSolid() != cloud.nSolid() || then.nDims != cloud.nDims || then.dx != cloud.dx ||
+        !std::equal(then.zones.begin(), then.zones.end(), cloud.zones.begin(), cloud.zones.end(),
+                    same))
+        throw fatalError(time.folder() +
+                         " holds another solid, other zones or another spacing "
+                         "than the time before: it is of another case");
+    cloud = std::move(then);
+    readBoundary();
 }
 
 void fsiCase::readProperties()

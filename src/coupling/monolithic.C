@@ -59,6 +59,7 @@ public:
         if (!c.structure) return;
         c.cloud.scalars[missedField].resize(c.cloud.n(), 0);
         K_ = c.structure->tangentPattern();
+        preconditioner_.restore(K_);
         volume_ = std::make_unique<volumeConstraint>(*c.structure);
     }
 
@@ -90,7 +91,6 @@ private:
     bool makesGood_;
     particleShifting shifting_;
     densityFeedback density_;
-    continuityErrors continuityErrors_;
 
     std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
@@ -243,7 +243,7 @@ void monolithic::printContinuityErrors(const List<scalar>& b, const List<scalar>
     system_.apply(z, Az);
     for (size_t i = 0; i < left.size(); ++i)
         left[i] = (Az[4 * i + 3] - b[4 * i + 3]) / c_.cloud.dx;
-    continuityErrors_.print(left, dt);
+    ispf::printContinuityErrors(c_.cloud, left, dt);
 }
 
 // A particle that is not finite or passes its neighbours in one step
@@ -263,8 +263,7 @@ void monolithic::step(scalar t, scalar dt)
 {
     printCourant(c_.cloud, dt);
     advance(t, dt, 0);
-    // a run continued from here has no old factor: both go on alike, bit for bit
-    if (c_.time.writeTime()) preconditioner_.refresh();
+    if (c_.structure && c_.time.writeTime()) preconditioner_.keep(c_.cloud);
 }
 
 // A step that cannot be accepted is taken again as two halves

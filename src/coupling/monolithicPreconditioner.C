@@ -12,6 +12,8 @@ namespace
 // (0) in the first steps
 constexpr scalar solidShare = 0.3;
 
+const word solidFactor = "solidFactor";
+
 }  // namespace
 
 monolithicPreconditioner::monolithicPreconditioner(const monolithicSystem& system,
@@ -45,6 +47,18 @@ void monolithicPreconditioner::setup()
     options_.cellSize = c.kernel->support();
     if (multigrid_) multigrid_->rebuild(L_, position, group);
     else multigrid_ = std::make_unique<cellMultigrid>(L_, position, options_, group);
+}
+
+void monolithicPreconditioner::keep(particleCloud& cloud) const
+{
+    cloud.history[solidFactor] = solid_.state();
+}
+
+void monolithicPreconditioner::restore(blockMatrix3& K)
+{
+    const fsiCase& c = system_.fsi();
+    if (const auto kept = c.cloud.history.find(solidFactor); kept != c.cloud.history.end())
+        solid_.restore(kept->second, *c.structure, c.cloud, K);
 }
 
 void monolithicPreconditioner::buildLaplacian()

@@ -148,6 +148,7 @@ void projection::step(scalar t, scalar dt)
                     [&](label i) { return c_.walls->nearOpen(i); });
     move(before, dt);
     c_.walls->exchange(cloud, t + dt);
+    if (c_.structure && c_.time.writeTime()) limits_.keep(cloud);
 }
 
 }  // namespace

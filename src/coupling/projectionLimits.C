@@ -34,6 +34,9 @@ projectionLimits::projectionLimits(const fsiCase& c, bool explicitViscosity, boo
       force_(dict.getInRangeOrDefault("force", 1e-6, 1, 0.25)),
       viscousFactor_(dict.getInRangeOrDefault("viscous", 1e-6, 1, 0.125))
 {
+    const auto kept = c.cloud.history.find(history);
+    if (kept != c.cloud.history.end() && kept->second.size() == 2)
+        stableStep_ = kept->second[0], lastUpdate_ = kept->second[1];
 }
 
 scalar projectionLimits::viscous() const
@@ -46,8 +49,7 @@ scalar projectionLimits::stiffness() const
 {
     if (!c_.structure) return none;
     const label now = c_.time.timeIndex();
-    // also after a write, as a run continued from there does
-    if (stableStep_ < 0 || now >= lastUpdate_ + stepsBetweenUpdates || c_.time.writeTime())
+    if (stableStep_ < 0 || now >= lastUpdate_ + stepsBetweenUpdates)
     {
         stableStep_ = c_.structure->stableTimeStep(c_.cloud.x, c_.rho * c_.cloud.volume());
         lastUpdate_ = now;

@@ -108,7 +108,7 @@ void projectionStep::printContinuityErrors(particleCloud& cloud, const stencil& 
     const List<scalar> div = sphc::div(s, cloud.Up, schemes_.divergence);
     List<scalar> left(cloud.n());
     for (label i = 0; i < cloud.n(); ++i) left[i] = div[i] - (q.empty() ? 0 : q[i]);
-    continuityErrors_.print(left, dt);
+    ispf::printContinuityErrors(cloud, left, dt);
 }
 
 }  // namespace ispf

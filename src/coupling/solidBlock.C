@@ -14,8 +14,8 @@ solidBlock::solidBlock(const dictionary& dict)
     options_.read(dict.subOrEmptyDict("multigrid"));
 }
 
-void solidBlock::setup(const blockMatrix3& K, scalar dt, const List<scalar>& A,
-                       const particleCloud& cloud, scalar cellSize)
+void solidBlock::assemble(const blockMatrix3& K, scalar dt, const List<scalar>& A,
+                          const particleCloud& cloud)
 {
     As_ = K;
     for (label i = 0; i < K.size(); ++i)
@@ -28,9 +28,21 @@ void solidBlock::setup(const blockMatrix3& K, scalar dt, const List<scalar>& A,
             As_.value[k] = cloud.uFixed[i] || cloud.uFixed[K.column[k]] ? tensor(tensor::Zero())
                                                                         : tensor(dt * K.value[k]);
     }
+}
+
+void solidBlock::setup(const blockMatrix3& K, scalar dt, const List<scalar>& A,
+                       const particleCloud& cloud, scalar cellSize)
+{
+    assemble(K, dt, A, cloud);
     if (solver_ == "direct")
     {
-        if (age_ == 0) direct_.factorise(As_);
+        if (age_ == 0)
+        {
+            direct_.factorise(As_);
+            made_ = {dt};
+            for (label i = 0; i < K.size(); ++i)
+                made_.insert(made_.end(), {cloud.x[i][0], cloud.x[i][1], cloud.x[i][2], A[i]});
+        }
         age_ = (age_ + 1) % refactorInterval_;
         return;
     }
@@ -41,6 +53,33 @@ void solidBlock::setup(const blockMatrix3& K, scalar dt, const List<scalar>& A,
     options_.cellSize = cellSize;
     if (multigrid_) multigrid_->rebuild(scalarBlock_, x);
     else multigrid_ = std::make_unique<cellMultigrid>(scalarBlock_, x, options_);
+}
+
+List<scalar> solidBlock::state() const
+{
+    if (solver_ != "direct" || age_ == 0) return {};
+    List<scalar> s = {scalar(age_)};
+    s.insert(s.end(), made_.begin(), made_.end());
+    return s;
+}
+
+void solidBlock::restore(const List<scalar>& state, const structureModel& structure,
+                         const particleCloud& cloud, blockMatrix3& K)
+{
+    const label n = K.size();
+    if (solver_ != "direct" || label(state.size()) != 2 + 4 * n || state[0] >= refactorInterval_)
+        return;
+    List<vec4> x(n);
+    List<scalar> A(n);
+    for (label i = 0; i < n; ++i)
+    {
+        const scalar* at = &state[2 + 4 * i];
+        x[i].s = simd4{at[0], at[1], at[2], 0}, A[i] = at[3];
+    }
+    structure.assembleTangent(x, tangentKind::positive, K);
+    assemble(K, state[1], A, cloud);
+    direct_.factorise(As_);
+    age_ = label(state[0]), made_.assign(state.begin() + 1, state.end());
 }
 
 void solidBlock::solve(const List<scalar>& A, const particleCloud& cloud, List<vec4>& u) const

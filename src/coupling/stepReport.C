@@ -18,7 +18,7 @@ void printCourant(const particleCloud& cloud, scalar dt)
     info() << "Courant Number mean: " << sum / cloud.n() << " max: " << most << std::endl;
 }
 
-void continuityErrors::print(const List<scalar>& left, scalar dt)
+void printContinuityErrors(particleCloud& cloud, const List<scalar>& left, scalar dt)
 {
     scalar local = 0, global = 0;
     for (const scalar e : left)
@@ -26,9 +26,11 @@ void continuityErrors::print(const List<scalar>& left, scalar dt)
         const scalar error = dt * e / scalar(left.size());
         local += std::abs(error), global += error;
     }
-    cumulative_ += global;
+    List<scalar>& cumulative = cloud.history["continuityErrors"];
+    cumulative.resize(1, 0);
+    cumulative[0] += global;
     info() << "time step continuity errors : sum local = " << local << ", global = " << global
-           << ", cumulative = " << cumulative_ << std::endl;
+           << ", cumulative = " << cumulative[0] << std::endl;
 }
 
 }  // namespace ispf

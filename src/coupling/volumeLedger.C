@@ -3,13 +3,26 @@
 #include "densityFeedback.H"
 #include "enclosedFluid.H"
 
-#include <filesystem>
-#include <iomanip>
+#include <ostream>
 
 namespace ispf
 {
 
-volumeLedger::volumeLedger(fsiCase& c) : c_(c)
+namespace
+{
+
+const List<word> titles = {"swept",        "cavity", "openNet",    "wall",         "control",
+                           "wallFeedback", "defect", "wallDefect", "fluidFeedback"};
+
+}  // namespace
+
+volumeLedger::volumeLedger(fsiCase& c)
+    : c_(c),
+      file_(c.caseFolder() + "/postProcessing/volumeLedger/" + c.time.timeName(c.time.startTime()) +
+                "/volumeLedger.dat",
+            {"Volumes of the whole body [m^" + std::to_string(c.cloud.nDims) +
+             "] since the start; control and what follows: put in"},
+            titles)
 {
     const dictionary dict = c.solution.subOrEmptyDict("volumeLedger");
     if (!dict.empty())
@@ -31,16 +44,6 @@ volumeLedger::volumeLedger(fsiCase& c) : c_(c)
     }
     c.source.assign(c.cloud.zones.size(), 0);
     if (zone_ >= 0) c.source[zone_] = source_;
-
-    const word folder = c.caseFolder() + "/postProcessing/volumeLedger/" + c.time.timeName();
-    std::filesystem::create_directories(folder);
-    file_.open(folder + "/volumeLedger.dat");
-    if (!file_) throw fatalError("Cannot write " + folder + "/volumeLedger.dat");
-    file_ << "# Volumes of the whole body [m^" << c.cloud.nDims
-          << "] since the start; control and what follows: put in\n"
-          << "# "
-             "Time\tswept\tcavity\topenNet\twall\tcontrol\twallFeedback\tdefect\twallDefect\tfluidF"
-             "eedback\n";
 }
 
 scalar volumeLedger::swept() const
@@ -100,14 +103,13 @@ void volumeLedger::writeLine()
     scalar open = 0;
     for (const patchBalance& b : c_.walls->balance()) open += b.created - b.deleted;
     open *= c_.cloud.volume() * c_.walls->symmetryFactor();
-    file_ << std::scientific << std::setprecision(6) << std::setw(14) << std::left
-          << c_.time.timeName();
+    file_.begin(c_.time.value());
     const scalar wall = wallVolume() - wall0_, feedback = wallFeedback();
     for (const scalar v :
          {swept(), cavityChange(), open, wall, controlled_, feedback, booked(c_, divergenceDefect),
           booked(c_, solidDefect), booked(c_, fluidFeedback)})
-        file_ << '\t' << v;
-    file_ << std::endl;
+        file_ << v;
+    file_.endRow();
     const auto inMm = [&](scalar v) {
         return c_.cloud.nDims == 2 ? str(v * 1e6) + " mm2" : str(v * 1e9) + " mm3";
     };

@@ -71,9 +71,9 @@ List<word> hdf5Reader::children(const word& group) const
     return names;
 }
 
-bool hdf5Reader::foundAttribute(const word& group, const word& name) const
+bool hdf5Reader::foundAttribute(const word& object, const word& name) const
 {
-    return H5Aexists_by_name(file_, group.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+    return H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
 hdf5Reader::kind hdf5Reader::kindOf(const word& path) const
@@ -151,11 +151,11 @@ void hdf5Reader::read(const word& path, word& text) const
     text.resize(std::min(size, text.find('\0')));
 }
 
-void hdf5Reader::attribute(const word& group, const word& name, List<globalId>& values) const
+void hdf5Reader::attribute(const word& object, const word& name, List<globalId>& values) const
 {
-    const word what = group + "@" + name;
+    const word what = object + "@" + name;
     const hdf5Id id =
-        checked(H5Aopen_by_name(file_, group.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+        checked(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
                 H5Aclose, what);
     const hdf5Id type = checked(H5Aget_type(id), H5Tclose, what);
     const hdf5Id space = checked(H5Aget_space(id), H5Sclose, what);

@@ -101,27 +101,27 @@ void hdf5Writer::write(const word& path, const word& text)
     writeData(path, stringType(text), {}, text.c_str());
 }
 
-void hdf5Writer::writeAttribute(const word& group, const word& name, hid_t type, hid_t space,
+void hdf5Writer::writeAttribute(const word& object, const word& name, hid_t type, hid_t space,
                                 const void* data)
 {
-    const word what = group + "@" + name;
-    const hdf5Id owner = checked(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose, what);
+    const word what = object + "@" + name;
+    const hdf5Id owner = checked(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose, what);
     const hdf5Id attribute = checked(
         H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
     if (H5Awrite(attribute, type, data) < 0) fail(what);
 }
 
-void hdf5Writer::attribute(const word& group, const word& name, const List<globalId>& values)
+void hdf5Writer::attribute(const word& object, const word& name, const List<globalId>& values)
 {
     const hsize_t n = values.size();
     const hdf5Id space = checked(H5Screate_simple(1, &n, nullptr), H5Sclose, name);
-    writeAttribute(group, name, H5T_NATIVE_INT64, space, values.data());
+    writeAttribute(object, name, H5T_NATIVE_INT64, space, values.data());
 }
 
-void hdf5Writer::attribute(const word& group, const word& name, const word& text)
+void hdf5Writer::attribute(const word& object, const word& name, const word& text)
 {
     const hdf5Id space = checked(H5Screate(H5S_SCALAR), H5Sclose, name);
-    writeAttribute(group, name, stringType(text), space, text.c_str());
+    writeAttribute(object, name, stringType(text), space, text.c_str());
 }
 
 word hdf5Writer::bytes()

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Layout of the file, version 1:
+// Layout of the file, version 2:
 //   /VTKHDF             UnstructuredGrid 1.0: Points, one vertex cell each, PointData/<column>
-//   /ispf               attributes version, checksum
+//   /ispf               attribute version; contents: the paths of what follows and of all columns
 //   /ispf/extra/<name>, /ispf/text/<name>
-// All numbers are double or 64-bit integers, so what ParaView shows is what a restart reads.
+// Each array of ours has an attribute checksum.  All numbers are double or 64-bit integers, so what ParaView
+// shows is what a restart reads.  Version 1 had one checksum, /ispf@checksum, for all.
 #include "particleTable.H"
 
 #include "fileNames.H"
@@ -11,6 +12,7 @@
 #include "particleTableCheck.H"
 
 #include <numeric>
+#include <sstream>
 
 namespace ispf
 {
@@ -18,100 +20,179 @@ namespace ispf
 namespace
 {
 
-constexpr globalId formatVersion = 1;
+constexpr globalId formatVersion = 2;
 constexpr std::uint8_t vtkVertex = 1;
-const word grid = "/VTKHDF", columns = "/VTKHDF/PointData", ours = "/ispf";
-const word extras = "/ispf/extra", texts = "/ispf/text";
+const word grid = "/VTKHDF", points = "/VTKHDF/Points", columns = "/VTKHDF/PointData";
+const word ours = "/ispf", extras = "/ispf/extra", texts = "/ispf/text",
+           contents = "/ispf/contents";
+const word sum = "checksum";
 
-void composeGrid(hdf5Writer& file, const particleTable& table)
+class composer
 {
-    const globalId n = globalId(table.size());
-    file.group(columns);
-    file.attribute(grid, "Version", List<globalId>{1, 0});
-    file.attribute(grid, "Type", word("UnstructuredGrid"));
-    for (const word count : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
-        file.write(grid + "/" + count, List<globalId>{n});
-    List<globalId> index(size_t(n) + 1);
-    std::iota(index.begin(), index.end(), globalId(0));
-    file.write(grid + "/Offsets", index);
-    index.pop_back();
-    file.write(grid + "/Connectivity", index);
-    file.write(grid + "/Types", List<std::uint8_t>(size_t(n), vtkVertex));
-    file.write(grid + "/Points", table.x);
-    for (const auto& [name, values] : table.scalars) file.write(columns + "/" + name, values);
-    for (const auto& [name, values] : table.vectors) file.write(columns + "/" + name, values);
-    for (const auto& [name, values] : table.integers) file.write(columns + "/" + name, values);
-}
+public:
+    word bytes(const particleTable& table)
+    {
+        addGrid(table);
+        file_.group(extras);
+        file_.group(texts);
+        file_.attribute(ours, "version", List<globalId>{formatVersion});
+        put(points, table.x);
+        putAll(columns, table.scalars), putAll(columns, table.vectors);
+        putAll(columns, table.integers), putAll(extras, table.extra);
+        putAll(texts, table.attributes);
+        put(contents, word(list_));
+        return file_.bytes();
+    }
 
-void readColumns(const hdf5Reader& file, particleTable& table)
+private:
+    template <class T>
+    void put(const word& path, const T& values)
+    {
+        file_.write(path, values);
+        file_.attribute(path, sum, List<globalId>{checksumOf(path, values)});
+        list_ += path + "\n";
+    }
+    template <class Columns>
+    void putAll(const word& group, const Columns& list)
+    {
+        for (const auto& [name, values] : list) put(group + "/" + name, values);
+    }
+    void addGrid(const particleTable& table)
+    {
+        const globalId n = globalId(table.size());
+        file_.group(columns);
+        file_.attribute(grid, "Version", List<globalId>{1, 0});
+        file_.attribute(grid, "Type", word("UnstructuredGrid"));
+        for (const word count : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
+            file_.write(grid + "/" + count, List<globalId>{n});
+        List<globalId> index(size_t(n) + 1);
+        std::iota(index.begin(), index.end(), globalId(0));
+        file_.write(grid + "/Offsets", index);
+        index.pop_back();
+        file_.write(grid + "/Connectivity", index);
+        file_.write(grid + "/Types", List<std::uint8_t>(size_t(n), vtkVertex));
+    }
+
+    hdf5Writer file_;
+    word list_;
+};
+
+class tableReader
 {
-    for (const word& name : file.children(columns))
+public:
+    explicit tableReader(const word& path) : path_(path), file_(path) {}
+
+    particleTable read()
+    {
+        version_ = readVersion();
+        for (const word& name : file_.children("/"))
+            if ("/" + name != grid && "/" + name != ours)
+                warning(path_ + ": '/" + name +
+                        "' is not one of particles: later times are without it");
+        particleTable table;
+        get(points, table.x);
+        for (const word& name : file_.children(columns)) readColumn(name, table);
+        for (const word& name : file_.children(extras)) get(extras + "/" + name, table.extra[name]);
+        for (const word& name : file_.children(texts))
+            get(texts + "/" + name, table.attributes[name]);
+        checkTable(table, "Cannot read '" + path_ + "'");
+        if (version_ == 1) checkWhole(table);
+        else checkContents();
+        return table;
+    }
+
+private:
+    globalId readVersion() const
+    {
+        if (!file_.found(ours) || !file_.found(columns) || !file_.foundAttribute(ours, "version"))
+            file_.fail(
+                "it is an HDF5 file, but not one of particles written by this program family");
+        List<globalId> version;
+        file_.attribute(ours, "version", version);
+        if (version.size() == 1 && (version[0] == 1 || version[0] == formatVersion))
+            return version[0];
+        file_.fail("its format version is " +
+                   (version.empty() ? word("absent") : std::to_string(version[0])) +
+                   "; this program reads versions 1 to " + std::to_string(formatVersion) +
+                   ".  Use the program that wrote it, or a newer one");
+    }
+
+    template <class T>
+    void get(const word& path, T& values)
+    {
+        file_.read(path, values);
+        if (version_ == 1) return;
+        if (!file_.foundAttribute(path, sum))
+            return warning(path_ + ": '" + path +
+                           "' has no checksum: somebody else has put it in, and it is kept");
+        List<globalId> stored;
+        file_.attribute(path, sum, stored);
+        if (stored != List<globalId>{checksumOf(path, values)})
+            file_.fail(
+                "the checksum of '" + path +
+                "' does not fit its content: the file was damaged, or edited.  If you have edited "
+                "it, remove the attribute " +
+                sum + " of that dataset");
+    }
+
+    void readColumn(const word& name, particleTable& table)
     {
         const word path = columns + "/" + name;
-        switch (file.kindOf(path))
+        switch (file_.kindOf(path))
         {
             case hdf5Reader::kind::scalars:
-                file.read(path, table.scalars[name]);
-                break;
+                return get(path, table.scalars[name]);
             case hdf5Reader::kind::vectors:
-                file.read(path, table.vectors[name]);
-                break;
+                return get(path, table.vectors[name]);
             case hdf5Reader::kind::integers:
-                file.read(path, table.integers[name]);
-                break;
+                return get(path, table.integers[name]);
             default:
-                file.fail("column '" + name + "' is neither scalar, vector nor integer");
+                file_.fail(
+                    "column '" + name +
+                    "' is neither scalar, vector nor integer: give its components columns of "
+                    "their own");
         }
     }
-}
 
-void checkVersion(const hdf5Reader& file)
-{
-    if (!file.found(ours) || !file.found(columns) || !file.foundAttribute(ours, "version"))
-        file.fail("it is an HDF5 file, but not one of particles written by this program family");
-    List<globalId> version;
-    file.attribute(ours, "version", version);
-    if (version != List<globalId>{formatVersion})
-        file.fail("its format version is " +
-                  (version.empty() ? word("absent") : std::to_string(version[0])) +
-                  "; this program reads version " + std::to_string(formatVersion) +
-                  ".  Use the program that wrote it, or a newer one");
-}
+    void checkWhole(const particleTable& table) const
+    {
+        if (!file_.foundAttribute(ours, sum))
+            return warning(path_ + " has no checksum: it is read as it is");
+        List<globalId> stored;
+        file_.attribute(ours, sum, stored);
+        if (stored != List<globalId>{checksumOf(table)})
+            file_.fail("its checksum does not fit its content: the file was damaged or edited");
+    }
+
+    // Nothing of what was written is gone
+    void checkContents()
+    {
+        if (!file_.found(contents))
+            file_.fail("'" + contents + "' is missing: the file was damaged");
+        word text;
+        get(contents, text);
+        std::istringstream lines(text);
+        for (word path; std::getline(lines, path);)
+            if (!file_.found(path))
+                file_.fail("'" + path + "' is missing: the file was damaged, or edited");
+    }
+
+    word path_;
+    hdf5Reader file_;
+    globalId version_ = 0;
+};
 
 }  // namespace
 
 void writeParticles(const particleTable& table, const word& path)
 {
     checkTable(table, "Particles are not written to '" + path + "'");
-    hdf5Writer file;
-    composeGrid(file, table);
-    file.group(extras);
-    file.group(texts);
-    file.attribute(ours, "version", List<globalId>{formatVersion});
-    file.attribute(ours, "checksum", List<globalId>{checksumOf(table)});
-    for (const auto& [name, values] : table.extra) file.write(extras + "/" + name, values);
-    for (const auto& [name, text] : table.attributes) file.write(texts + "/" + name, text);
-    writeText(path, file.bytes());
+    writeText(path, composer().bytes(table));
 }
 
 particleTable readParticles(const word& path)
 {
-    const hdf5Reader file(path);
-    checkVersion(file);
-    particleTable table;
-    file.read(grid + "/Points", table.x);
-    readColumns(file, table);
-    for (const word& name : file.children(extras))
-        file.read(extras + "/" + name, table.extra[name]);
-    for (const word& name : file.children(texts))
-        file.read(texts + "/" + name, table.attributes[name]);
-    checkTable(table, "Cannot read '" + path + "'");
-
-    List<globalId> sum;
-    file.attribute(ours, "checksum", sum);
-    if (sum != List<globalId>{checksumOf(table)})
-        file.fail("its checksum does not fit its content: the file was damaged or edited");
-    return table;
+    return tableReader(path).read();
 }
 
 }  // namespace ispf

@@ -141,6 +141,40 @@ private:
 
 }  // namespace
 
+namespace
+{
+
+template <class T>
+globalId sumOf(const word& name, const T& values)
+{
+    checksum sum;
+    sum.add(name);
+    sum.add(values);
+    return sum.value();
+}
+
+}  // namespace
+
+globalId checksumOf(const word& name, const List<scalar>& values)
+{
+    return sumOf(name, values);
+}
+
+globalId checksumOf(const word& name, const List<vector>& values)
+{
+    return sumOf(name, values);
+}
+
+globalId checksumOf(const word& name, const List<globalId>& values)
+{
+    return sumOf(name, values);
+}
+
+globalId checksumOf(const word& name, const word& text)
+{
+    return sumOf(name, text);
+}
+
 globalId checksumOf(const particleTable& table)
 {
     checksum sum;

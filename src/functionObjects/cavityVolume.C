@@ -22,13 +22,13 @@ class cavityVolume : public functionObject
 {
 public:
     cavityVolume(const word& name, const dictionary& dict, const fsiCase& c)
-        : functionObject(name, c),
+        : functionObject(name, dict, c),
           surface_(dict.get<word>("surface"), c, dict.where("surface")),
           rest_(surface_.restVolume()),
-          file_(startFolder() + "/cavityVolume.dat",
-                {"Volume inside " + surface_.name() + ", of the whole body [m3]",
-                 "at rest: " + str(rest_, 9)},
-                {"volume", "change", "changeOverRest"}, 9)
+          file_(table("cavityVolume.dat",
+                      {"Volume inside " + surface_.name() + ", of the whole body [m3]",
+                       "at rest: " + str(rest_, 9)},
+                      {"volume", "change", "changeOverRest"}, 9))
     {
     }
 

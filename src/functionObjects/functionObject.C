@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "functionObject.H"
 
+#include "fileNames.H"
+
 namespace ispf
 {
 
@@ -10,15 +12,25 @@ std::unique_ptr<functionObject> functionObject::New(const word& name, const dict
     using maker =
         std::unique_ptr<functionObject> (*)(const word&, const dictionary&, const fsiCase&);
     static const std::map<word, maker> types = {{"cavityVolume", newCavityVolume},
+                                                {"energy", newEnergy},
+                                                {"forces", newForces},
                                                 {"lineProfile", newLineProfile},
                                                 {"minMax", newMinMax},
                                                 {"patchFlux", newPatchFlux},
+                                                {"planeMap", newPlaneMap},
                                                 {"probes", newProbes},
                                                 {"surfaceLeaks", newSurfaceLeaks},
+                                                {"surfaceSample", newSurfaceSample},
                                                 {"zoneDiameter", newZoneDiameter}};
     List<word> names;
     for (const auto& t : types) names.push_back(t.first);
     return types.at(dict.choose("type", names))(name, dict, c);
+}
+
+functionObject::functionObject(const word& name, const dictionary& dict, const fsiCase& c)
+    : name_(name), case_(c)
+{
+    precision_ = dict.getInRangeOrDefault<label>("writePrecision", 1, 17, c.time.writePrecision());
 }
 
 word functionObject::folder(const word& time) const
@@ -29,6 +41,21 @@ word functionObject::folder(const word& time) const
 word functionObject::startFolder() const
 {
     return folder(case_.time.timeName(case_.time.startTime()));
+}
+
+word functionObject::tablePath(const word& file) const
+{
+    const word path = startFolder() + "/" + file;
+    if (!case_.time.postProcessing() || !isFile(path)) return path;
+    const size_t dot = std::min(path.find('.', startFolder().size()), path.size());
+    return path.substr(0, dot) + "_" + case_.time.timeName(case_.time.startTime()) +
+           path.substr(dot);
+}
+
+dataFile functionObject::table(const word& file, const List<word>& remarks,
+                               const List<word>& titles, int digits) const
+{
+    return dataFile(tablePath(file), remarks, titles, precision(digits));
 }
 
 }  // namespace ispf

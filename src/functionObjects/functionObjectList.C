@@ -7,39 +7,81 @@
 namespace ispf
 {
 
-functionObjectList::functionObjectList(const fsiCase& c) : case_(c)
+namespace
 {
-    const dictionary all = c.time.controlDict().subOrEmptyDict("functions");
-    for (const word& name : all.dictKeys())
+
+constexpr scalar absent = 0;
+const List<word> controls = {
+    "timeStep",   "writeTime", "outputTime", "runTime", "adjustableRunTime",
+    "adjustable", "clockTime", "cpuTime",    "onEnd",   "none",
+    "always"};
+
+// Entry of cloud.history with the state of a function object
+word stateOf(const functionObject& f)
+{
+    return "functions." + f.name();
+}
+
+}  // namespace
+
+functionObjectList::functionObjectList(fsiCase& c)
+    : functionObjectList(c, c.time.controlDict().subOrEmptyDict("functions"))
+{
+    c.time.controlDict().checkAllRead();
+    info() << "function objects: " << (items_.empty() ? "none" : join(names())) << "\n";
+}
+
+functionObjectList::functionObjectList(fsiCase& c, const dictionary& functions) : case_(c)
+{
+    for (const word& name : functions.dictKeys())
     {
-        const dictionary& dict = all.subDict(name);
+        const dictionary& dict = functions.subDict(name);
         if (dict.getOrDefault<bool>("enabled", true)) add(name, dict);
         else dict.markAllRead();
     }
-    c.time.controlDict().checkAllRead();
-    info() << "function objects: " << (items_.empty() ? "none" : join(names())) << "\n";
+    restore();
 }
 
 void functionObjectList::add(const word& name, const dictionary& dict)
 {
     item i;
-    dict.found("libs");  // OpenFOAM loads libraries by name; ours are linked
+    dict.found("libs"), dict.found("log"), dict.found("region");  // OpenFOAM's
     i.object = functionObject::New(name, dict, case_);
-    i.control = dict.chooseOrDefault("writeControl", {"timeStep", "runTime", "writeTime", "none"},
-                                     i.object->defaultWriteControl());
-    const bool counts = i.control == "timeStep", hasInterval = counts || i.control == "runTime";
-    i.interval = i.control == "runTime" ? dict.getInRange("writeInterval", 1e-30, 1e30, dims::time)
-                 : counts               ? dict.getInRangeOrDefault("writeInterval", 1, 1e9, 1)
-                                        : 1;
-    if (counts && i.interval != std::floor(i.interval))
-        dict.fail("writeInterval",
-                  "With 'writeControl timeStep' this counts steps: a whole number.");
-    if (!hasInterval && dict.found("writeInterval"))
-        dict.fail("writeInterval", "'writeControl " + i.control + "' takes no writeInterval.");
+    i.execute.control = dict.chooseOrDefault("executeControl", controls, "timeStep");
+    i.execute.interval =
+        dict.getInRangeOrDefault("executeInterval", 1e-30, 1e30, absent, dims::any);
+    i.execute = checked(i.execute, dict, "execute");
+    i.write.control =
+        dict.chooseOrDefault("writeControl", controls, i.object->defaultWriteControl());
+    i.write.interval = dict.getInRangeOrDefault("writeInterval", 1e-30, 1e30, absent, dims::any);
+    i.write = checked(i.write, dict, "write");
     i.from = dict.getOrDefault<scalar>("timeStart", -1e30, dims::time);
     i.to = dict.getOrDefault<scalar>("timeEnd", 1e30, dims::time);
-    i.passed = multiples(i);
+    if (i.to < i.from) dict.fail("timeEnd", "timeEnd lies before timeStart: nothing is ever done.");
     items_.push_back(std::move(i));
+}
+
+functionObjectList::trigger functionObjectList::checked(trigger t, const dictionary& dict,
+                                                        const word& what)
+{
+    static const std::map<word, word> aliases = {
+        {"outputTime", "writeTime"}, {"adjustable", "adjustableRunTime"}, {"always", "timeStep"}};
+    const word control = what + "Control", interval = what + "Interval";
+    const bool given = t.interval != absent, counts = t.control == "timeStep";
+    if (const auto alias = aliases.find(t.control); alias != aliases.end())
+        t.control = alias->second;
+    if (!given) t.interval = 1;
+    const bool isInterval = multiples(t) >= 0;
+    if (isInterval && !given)
+        throw fatalError("'" + control + " " + t.control + "' wants " + interval + " [s].",
+                         dict.where());
+    if (given && !counts && !isInterval)
+        dict.fail(interval, "'" + control + " " + t.control + "' takes no " + interval + ".");
+    if (counts && t.interval != std::floor(t.interval))
+        dict.fail(interval, "With '" + control + " timeStep' this counts steps: a whole number.");
+    if (t.control == "adjustableRunTime") case_.time.alsoHit(t.interval);
+    t.passed = multiples(t);
+    return t;
 }
 
 bool functionObjectList::within(const item& i) const
@@ -48,41 +90,78 @@ bool functionObjectList::within(const item& i) const
     return case_.time.value() >= i.from - slack && case_.time.value() <= i.to + slack;
 }
 
-scalar functionObjectList::multiples(const item& i) const
+// How often the interval has passed; negative if the control is no matter of an interval
+scalar functionObjectList::multiples(const trigger& t) const
 {
-    return std::floor((case_.time.value() + 1e-9 * case_.time.deltaT()) / i.interval);
+    const Time& time = case_.time;
+    if (t.control == "runTime" || t.control == "adjustableRunTime")
+        return std::floor((time.value() + 1e-9 * time.deltaT()) / t.interval);
+    if (t.control == "clockTime") return std::floor(time.elapsedClockTime() / t.interval);
+    if (t.control == "cpuTime") return std::floor(time.elapsedCpuTime() / t.interval);
+    return -1;
 }
 
-bool functionObjectList::due(item& i) const
+bool functionObjectList::due(trigger& t) const
 {
-    if (i.control == "none") return false;
-    if (i.control == "writeTime") return case_.time.writeTime();
-    if (i.control == "timeStep") return case_.time.timeIndex() % label(i.interval) == 0;
-    const scalar before = i.passed;
-    i.passed = multiples(i);
-    return i.passed > before;
+    if (t.control == "writeTime") return case_.time.writeTime();
+    if (t.control == "timeStep") return case_.time.timeIndex() % label(t.interval) == 0;
+    const scalar before = t.passed;
+    t.passed = multiples(t);
+    return t.passed > before;
+}
+
+// Where they are now to the last digit, and as they will move: what a state tells as well
+void functionObjectList::placeWalls()
+{
+    case_.walls->setStep(case_.time.value(), case_.time.value() + case_.time.deltaT());
+}
+
+void functionObjectList::restore()
+{
+    for (item& i : items_)
+        if (const auto kept = case_.cloud.history.find(stateOf(*i.object));
+            kept != case_.cloud.history.end())
+            i.object->restore(kept->second);
 }
 
 void functionObjectList::start()
 {
+    placeWalls();
     for (item& i : items_)
-        if (i.control != "none" && within(i)) i.object->write();
+        if (i.write.control != "none" && i.write.control != "onEnd" && within(i)) i.object->write();
 }
 
 void functionObjectList::execute()
 {
+    placeWalls();
     for (item& i : items_)
     {
-        const bool now = due(i);
+        const bool now = due(i.execute), writes = due(i.write);
         if (!within(i)) continue;
-        i.object->execute();
-        if (now) i.object->write();
+        if (now) i.object->execute();
+        if (writes) i.object->write();
     }
+    if (!case_.time.writeTime()) return;
+    for (item& i : items_)
+        if (const List<scalar> state = i.object->state(); !state.empty())
+            case_.cloud.history[stateOf(*i.object)] = state;
 }
 
 void functionObjectList::end()
 {
-    for (item& i : items_) i.object->end();
+    for (item& i : items_)
+    {
+        if (i.write.control == "onEnd" && within(i)) i.object->write();
+        i.object->end();
+    }
+}
+
+void functionObjectList::writeNow()
+{
+    placeWalls();
+    restore();
+    for (item& i : items_)
+        if (i.write.control != "onEnd" && within(i)) i.object->write();
 }
 
 List<word> functionObjectList::names() const

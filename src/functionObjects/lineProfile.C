@@ -21,7 +21,7 @@ class lineProfile : public functionObject
 {
 public:
     lineProfile(const word& name, const dictionary& dict, const fsiCase& c)
-        : functionObject(name, c), fields_(fieldsOf(c.cloud, dict)), sampler_(dict, c)
+        : functionObject(name, dict, c), fields_(fieldsOf(c.cloud, dict)), sampler_(dict, c)
     {
         const vector a = dict.get<vector>("start", dims::length),
                      b = dict.get<vector>("end", dims::length);
@@ -40,10 +40,12 @@ public:
         text += "\n";
         for (size_t k = 0; k < points_.size(); ++k)
         {
-            text += scientific((points_[k] - points_[0]).norm(), 6);
-            for (int d = 0; d < 3; ++d) text += "\t" + scientific(points_[k][d], 6);
+            const auto put = [&](scalar v) { text += scientific(v, precision(6)) + "\t"; };
+            put((points_[k] - points_[0]).norm());
+            for (int d = 0; d < 3; ++d) put(points_[k][d]);
             for (const particleField& f : fields_)
-                for (const scalar v : sampler_.components(f, k)) text += "\t" + scientific(v, 6);
+                for (const scalar v : sampler_.components(f, k)) put(v);
+            text.pop_back();
             text += "\n";
         }
         writeText(folder(case_.time.timeName()) + "/line.dat", text);

@@ -18,11 +18,12 @@ class minMax : public functionObject
 {
 public:
     minMax(const word& name, const dictionary& dict, const fsiCase& c)
-        : functionObject(name, c),
+        : functionObject(name, dict, c),
           fields_(fieldsOf(c.cloud, dict)),
           chosen_(c.cloud, dict, "all"),
-          file_(startFolder() + "/minMax.dat",
-                {"Least and greatest value and their positions; magnitudes of vectors"}, titles())
+          file_(table("minMax.dat",
+                      {"Least and greatest value and their positions; magnitudes of vectors"},
+                      titles()))
     {
     }
 

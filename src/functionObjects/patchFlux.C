@@ -26,10 +26,10 @@ class balancedFlux : public functionObject
 {
 public:
     balancedFlux(const word& name, const dictionary& dict, const fsiCase& c)
-        : functionObject(name, c),
+        : functionObject(name, dict, c),
           patch_(dict.get<word>("patch")),
-          file_(startFolder() + "/patchFlux.dat",
-                {"Volume through patch " + patch_ + ", out positive"}, {"flux", "volume"}, 9)
+          file_(table("patchFlux.dat", {"Volume through patch " + patch_ + ", out positive"},
+                      {"flux", "volume"}, 9))
     {
         List<word> names;
         for (const patchBalance& b : c.walls->balance()) names.push_back(b.name);
@@ -41,10 +41,16 @@ public:
     void write() override
     {
         const scalar now = case_.time.value(), v = volume();
-        const scalar flux = now > lastTime_ ? (v - lastVolume_) / (now - lastTime_) : 0;
-        file_.begin(now) << flux << v;
+        if (now > lastTime_) flux_ = (v - lastVolume_) / (now - lastTime_);
+        file_.begin(now) << flux_ << v;
         file_.endRow();
         lastTime_ = now, lastVolume_ = v;
+    }
+
+    List<scalar> state() const override { return {lastTime_, lastVolume_, flux_}; }
+    void restore(const List<scalar>& s) override
+    {
+        if (s.size() == 3) lastTime_ = s[0], lastVolume_ = s[1], flux_ = s[2];
     }
 
 private:
@@ -59,20 +65,21 @@ private:
 
     word patch_;
     dataFile file_;
-    scalar lastTime_ = 0, lastVolume_ = 0;
+    scalar lastTime_ = 0, lastVolume_ = 0, flux_ = 0;
 };
 
 class sampledFlux : public functionObject
 {
 public:
     sampledFlux(const word& name, const dictionary& dict, const fsiCase& c)
-        : functionObject(name, c),
+        : functionObject(name, dict, c),
           surface_(readSurface(dict.get<word>("surface"), c, dict.where("surface"))),
           U_(c.cloud, "U", dict.where()),
           sampler_(dict, c),
-          file_(startFolder() + "/patchFlux.dat",
-                {"Flow through the surface " + dict.get<word>("surface") + ", along its normals"},
-                {"flux", "covered"}, 9)
+          file_(table(
+              "patchFlux.dat",
+              {"Flow through the surface " + dict.get<word>("surface") + ", along its normals"},
+              {"flux", "covered"}, 9))
     {
         if (!(surface_.area() > 0)) dict.fail("surface", "This surface has no area.");
         for (label t = 0; t < surface_.size(); ++t) centres_.push_back(surface_.centre(t));

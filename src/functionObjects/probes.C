@@ -30,7 +30,7 @@ class probes : public functionObject
 {
 public:
     probes(const word& name, const dictionary& dict, const fsiCase& c)
-        : functionObject(name, c),
+        : functionObject(name, dict, c),
           points_(dict.get<List<vector>>("probeLocations", dims::length)),
           fields_(fieldsOf(c.cloud, dict)),
           sampler_(dict, c),
@@ -50,7 +50,8 @@ public:
             for (size_t k = 0; k < points_.size(); ++k) files_[f] << value(fields_[f], k);
             files_[f] << std::endl;
             if (!files_[f])
-                throw fatalError("Cannot write " + startFolder() + "/" + fields_[f].name() + ".");
+                throw fatalError("Cannot write " + startFolder() + "/" + fields_[f].name() +
+                                 ". Is the disk full?");
         }
     }
 
@@ -73,13 +74,13 @@ private:
     {
         word text;
         for (const scalar v : sampler_.components(f, k))
-            text += (text.empty() ? "" : " ") + scientific(v, 6);
+            text += (text.empty() ? "" : " ") + scientific(v, precision(6));
         return aligned(f.isVector() ? "(" + text + ")" : text, columnWidth(f));
     }
 
     void open(size_t f)
     {
-        const word path = startFolder() + "/" + fields_[f].name();
+        const word path = tablePath(fields_[f].name());
         word header, numbers = "#" + aligned("Probe", width - 1);
         for (size_t k = 0; k < points_.size(); ++k)
         {

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <iterator>
-#include <sstream>
 
 namespace ispf
 {
@@ -16,11 +14,6 @@ namespace
 // Neighbours within 2 dx take part; a point further than dx from any particle is blank
 constexpr scalar radiusFactor = 2, blankFactor = 1;
 
-vector mirrored(const vector& v, const vector& unitNormal)
-{
-    return v - 2 * unitNormal.dot(v) * unitNormal;
-}
-
 word number(scalar value)
 {
     if (!std::isfinite(value)) return "NaN";
@@ -29,10 +22,12 @@ word number(scalar value)
     return text;
 }
 
-List<word> words(const word& text)
+List<char> chosenZones(const particleCloud& cloud, const dictionary& dict)
 {
-    std::istringstream stream(text);
-    return {std::istream_iterator<word>(stream), {}};
+    List<char> chosen(cloud.zones.size(), false);
+    for (const word& name : dict.get<List<word>>("zones"))
+        chosen[cloud.zoneIndex(name, dict.where("zones"))] = true;
+    return chosen;
 }
 
 label count(const List<scalar>& range, scalar spacing)
@@ -42,16 +37,15 @@ label count(const List<scalar>& range, scalar spacing)
 
 }  // namespace
 
-samplePlane::samplePlane(const word& name, const dictionary& dict)
+samplePlane::samplePlane(const word& name, const dictionary& dict, const particleCloud& cloud)
     : name_(name),
-      dict_(dict),
       point_(dict.get<vector>("point", dims::length)),
       normal_(dict.get<vector>("normal").normalized()),
       xAxis_(dict.get<vector>("xAxis")),
       xRange_(dict.get<List<scalar>>("xRange", dims::length)),
       yRange_(dict.get<List<scalar>>("yRange", dims::length)),
-      zones_(dict.get<List<word>>("zones")),
-      fields_(dict.get<List<word>>("fields")),
+      inZones_(chosenZones(cloud, dict)),
+      fields_(fieldsOf(cloud, dict)),
       images_(dict.getOrDefault<List<vector>>("images", {}, dims::length))
 {
     if (!(normal_.norm() > 0)) dict.fail("normal", "must not be zero");
@@ -75,87 +69,53 @@ samplePlane::samplePlane(const word& name, const dictionary& dict)
     }
     if (const dictionary* slice = dict.findDict("slice"))
     {
-        sliceZones_ = slice->get<List<word>>("zones");
+        inSlice_ = chosenZones(cloud, *slice);
         sliceThickness_ = slice->getInRange("thickness", 1e-30, 1e30, dims::length);
     }
 }
 
-List<char> samplePlane::inZones(const particleTable& particles, const List<word>& names) const
+struct samplePlane::image
 {
-    const auto known = particles.attributes.find("zones");
-    const auto index = particles.integers.find("zone");
-    if (known == particles.attributes.end() || index == particles.integers.end())
-        throw fatalError(
-            "The particles have no zones: attribute 'zones' or column 'zone' is absent");
-    const List<word> valid = words(known->second);
-    List<char> chosen(valid.size(), false);
-    for (const word& name : names)
-    {
-        const auto at = std::find(valid.begin(), valid.end(), name);
-        if (at == valid.end())
-            dict_.fail("zones", "'" + name + "' is not a zone.\n" + validWords("zone", valid));
-        chosen[size_t(at - valid.begin())] = true;
-    }
-    List<char> result;
-    for (const globalId zone : index->second)
-        result.push_back(zone >= 0 && size_t(zone) < chosen.size() && chosen[size_t(zone)]);
-    return result;
+    label i;
+    size_t image;  // which symmetry planes it is mirrored by
+    vector x;
+};
+
+vector samplePlane::mirrored(vector v, size_t image) const
+{
+    for (size_t k = 0; k < images_.size(); ++k)
+        if (image >> k & 1) v -= 2 * images_[k].dot(v) * images_[k];
+    return v;
 }
 
-particleTable samplePlane::nearPlane(const particleTable& particles, scalar distance) const
+List<samplePlane::image> samplePlane::nearPlane(const particleCloud& cloud, scalar distance) const
 {
-    particleTable result;
-    result.attributes = particles.attributes;
+    List<image> result;
     // every combination of the symmetry planes is one image
-    for (size_t image = 0; image < size_t(1) << images_.size(); ++image)
-    {
-        const auto map = [&](vector v) {
-            for (size_t k = 0; k < images_.size(); ++k)
-                if (image >> k & 1) v = mirrored(v, images_[k]);
-            return v;
-        };
-        for (size_t i = 0; i < particles.size(); ++i)
-        {
-            const vector x = map(particles.x[i] - point_);
-            if (std::abs(x.dot(normal_)) > distance) continue;
-            result.x.push_back(x);
-            for (const auto& [name, values] : particles.scalars)
-                result.scalars[name].push_back(values[i]);
-            for (const auto& [name, values] : particles.vectors)
-                result.vectors[name].push_back(map(values[i]));
-            for (const auto& [name, values] : particles.integers)
-                result.integers[name].push_back(values[i]);
-        }
-    }
+    for (size_t m = 0; m < size_t(1) << images_.size(); ++m)
+        for (label i = 0; i < cloud.n(); ++i)
+            if (const vector x = mirrored(cloud.x[i].xyz() - point_, m);
+                std::abs(x.dot(normal_)) <= distance)
+                result.push_back({i, m, x});
     return result;
 }
 
-word samplePlane::grid(const particleTable& particles) const
+word samplePlane::grid(const particleCloud& cloud) const
 {
-    const scalar dx = particles.scalarAttribute("dx");
-    const particleTable near = nearPlane(particles, radiusFactor * dx);
-    const List<char> chosen = inZones(near, zones_);
-    List<vector> x;
+    const scalar dx = cloud.dx;
+    const List<image> near = nearPlane(cloud, radiusFactor * dx);
+    List<vector> all, chosen;
     List<label> row;
-    for (size_t i = 0; i < near.size(); ++i)
-        if (chosen[i]) x.push_back(near.x[i]), row.push_back(label(i));
-    const pointSampler sampler(x, radiusFactor * dx), all(near.x, radiusFactor * dx);
-
-    word text = "# x\ty";
-    for (const word& field : fields_)
+    for (size_t k = 0; k < near.size(); ++k)
     {
-        if (near.vectors.count(field))
-            text += "\t" + field + "_x\t" + field + "_y\t" + field + "_n";
-        else if (near.scalars.count(field)) text += "\t" + field;
-        else
-        {
-            List<word> valid;
-            for (const auto& column : near.vectors) valid.push_back(column.first);
-            for (const auto& column : near.scalars) valid.push_back(column.first);
-            dict_.fail("fields", "the particles have no field '" + field + "'.\n" +
-                                     validWords("field", valid));
-        }
+        all.push_back(near[k].x);
+        if (inZones_[cloud.zone[near[k].i]]) chosen.push_back(near[k].x), row.push_back(label(k));
     }
+    const pointSampler sampler(chosen, radiusFactor * dx), any(all, radiusFactor * dx);
+    word text = "# x\ty";
+    for (const particleField& f : fields_)
+        text += "\t" +
+                (f.isVector() ? f.name() + "_x\t" + f.name() + "_y\t" + f.name() + "_n" : f.name());
     text += "\n";
     for (label j = 0; j < count(yRange_, spacing_); ++j)
     {
@@ -163,24 +123,24 @@ word samplePlane::grid(const particleTable& particles) const
         {
             const scalar px = xRange_[0] + i * spacing_, py = yRange_[0] + j * spacing_;
             const vector point = px * xAxis_ + py * yAxis_;
-            const auto nearest = all.nearest(point);
+            const auto nearest = any.nearest(point);
             const bool blank = nearest.index < 0 || nearest.distance > blankFactor * dx ||
-                               !chosen[size_t(nearest.index)];
-            auto weights = sampler.weights(point);
-            for (auto& c : weights) c.index = row[size_t(c.index)];
-
+                               !inZones_[cloud.zone[near[size_t(nearest.index)].i]];
+            const auto weights = sampler.weights(point);
             text += number(px) + "\t" + number(py);
-            for (const word& field : fields_)
+            for (const particleField& f : fields_)
             {
-                if (const auto f = near.scalars.find(field); f != near.scalars.end())
+                vector v = vector::Zero();
+                for (const auto& [index, weight] : weights)
                 {
-                    text += "\t" + (blank ? "NaN" : number(sampler.sum(weights, f->second, 0.0)));
-                    continue;
+                    const image& at = near[size_t(row[size_t(index)])];
+                    if (f.isVector()) v += weight * mirrored(f.vectorAt(at.i), at.image);
+                    else v[0] += weight * f.at(at.i);
                 }
-                const vector v =
-                    pointSampler::sum<vector>(weights, near.vectors.at(field), vector::Zero());
-                for (const vector& axis : {xAxis_, yAxis_, normal_})
-                    text += "\t" + (blank ? "NaN" : number(axis.dot(v)));
+                if (!f.isVector()) text += "\t" + (blank ? "NaN" : number(v[0]));
+                else
+                    for (const vector& axis : {xAxis_, yAxis_, normal_})
+                        text += "\t" + (blank ? "NaN" : number(axis.dot(v)));
             }
             text += "\n";
         }
@@ -189,22 +149,16 @@ word samplePlane::grid(const particleTable& particles) const
     return text;
 }
 
-word samplePlane::slice(const particleTable& particles) const
+word samplePlane::slice(const particleCloud& cloud) const
 {
-    const particleTable near = nearPlane(particles, sliceThickness_ / 2);
-    const List<char> chosen = inZones(near, sliceZones_);
-    const List<globalId>& zone = near.integers.at("zone");
-    const List<word> zoneNames = words(near.attributes.at("zones"));
-    const auto U = near.vectors.find("U");
     word text = "# x\ty\tn\tzone\tU_x\tU_y\tU_n\n";
-    for (size_t i = 0; i < near.size(); ++i)
+    for (const image& at : nearPlane(cloud, sliceThickness_ / 2))
     {
-        if (!chosen[i]) continue;
-        for (const vector& axis : {xAxis_, yAxis_, normal_})
-            text += number(axis.dot(near.x[i])) + "\t";
-        text += zoneNames[size_t(zone[i])];
-        for (const vector& axis : {xAxis_, yAxis_, normal_})
-            text += "\t" + (U == near.vectors.end() ? "NaN" : number(axis.dot(U->second[i])));
+        if (!inSlice_[cloud.zone[at.i]]) continue;
+        for (const vector& axis : {xAxis_, yAxis_, normal_}) text += number(axis.dot(at.x)) + "\t";
+        text += cloud.zones[cloud.zone[at.i]].name;
+        const vector U = mirrored(cloud.Up[at.i].xyz(), at.image);
+        for (const vector& axis : {xAxis_, yAxis_, normal_}) text += "\t" + number(axis.dot(U));
         text += "\n";
     }
     return text;

@@ -29,11 +29,10 @@ class surfaceLeaks : public functionObject
 {
 public:
     surfaceLeaks(const word& name, const dictionary& dict, const fsiCase& c)
-        : functionObject(name, c),
+        : functionObject(name, dict, c),
           chosen_(c.cloud, dict, "fluid"),
-          file_(startFolder() + "/surfaceLeaks.dat",
-                {"Particles on the wrong side of " + readSurface(dict)},
-                titles(dict.found("patches")))
+          file_(table("surfaceLeaks.dat", {"Particles on the wrong side of " + readSurface(dict)},
+                      titles(dict.found("patches"))))
     {
         label balance = 0;
         forDistances(3 * c.cloud.dx, [&](scalar d) { balance += d > 0 ? 1 : -1; });
@@ -56,6 +55,12 @@ public:
         file_.begin(case_.time.value()) << wrong << through << deepest;
         if (!carried_) file_ << putBack();
         file_.endRow();
+    }
+
+    List<scalar> state() const override { return {scalar(rightSide_)}; }
+    void restore(const List<scalar>& s) override
+    {
+        if (s.size() == 1) rightSide_ = s[0] > 0 ? 1 : -1;
     }
 
 private:

@@ -24,18 +24,18 @@ class zoneDiameter : public functionObject
 {
 public:
     zoneDiameter(const word& name, const dictionary& dict, const fsiCase& c)
-        : functionObject(name, c),
+        : functionObject(name, dict, c),
           surface_(dict.get<word>("surface"), c, dict.where("surface")),
           frame_(dict.get<vector>("point", dims::length), dict.get<vector>("axis")),
           band_(dict.getInRangeOrDefault("band", 0, 1e30, 0, dims::length)),
           nAngles_(2 * (dict.getInRangeOrDefault<label>("nAngles", 4, 1e6, 360) / 2)),
           images_(imagesAboutAxis(c.walls->images(), frame_)),
           rest_(measure(surface_.rest()).mean),
-          file_(startFolder() + "/zoneDiameter.dat",
-                {"Diameter of " + surface_.name() + " [m], over " + std::to_string(nAngles_) +
-                     " angles",
-                 "at rest: " + str(rest_, 9)},
-                {"diameter", "dDoverD", "min", "max"}, 9)
+          file_(table("zoneDiameter.dat",
+                      {"Diameter of " + surface_.name() + " [m], over " + std::to_string(nAngles_) +
+                           " angles",
+                       "at rest: " + str(rest_, 9)},
+                      {"diameter", "dDoverD", "min", "max"}, 9))
     {
         if (!(dict.get<vector>("axis").norm() > 0)) dict.fail("axis", "The axis has no direction.");
         if (std::isnan(rest_))

@@ -29,6 +29,7 @@ void particleCloud::forAllFields(Visit&& visit)
     visit(pGiven);
     for (auto& [name, field] : scalars) visit(field);
     for (auto& [name, field] : vectors) visit(field);
+    for (auto& [name, field] : integers) visit(field);
 }
 
 void particleCloud::append(const vector& position, std::uint8_t zoneIndex, const vec4& up,
@@ -50,6 +51,7 @@ void particleCloud::append(const vector& position, std::uint8_t zoneIndex, const
     id[i] = number, uFixed[i] = z.fixed, pFixed[i] = 0, pGiven[i] = 0;
     for (auto& [name, field] : scalars) field[i] = 0;
     for (auto& [name, field] : vectors) field[i] = vec4{};
+    for (auto& [name, field] : integers) field[i] = 0;
     nextId_ = std::max(nextId_, number + 1);
 }
 

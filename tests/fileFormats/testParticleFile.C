@@ -2,83 +2,12 @@
 #include "fileNames.H"
 #include "hdf5File.H"
 #include "particleTable.H"
+#include "sampleTable.H"
 #include "scratchFolder.H"
 
 #include <doctest/doctest.h>
-#include <cstring>
-#include <limits>
 
 using namespace ispf;
-
-namespace
-{
-
-particleTable sampleTable(size_t n)
-{
-    particleTable table;
-    List<scalar>& p = table.scalars["p"];
-    List<vector>& U = table.vectors["U"];
-    List<globalId>& id = table.integers["id"];
-    for (size_t i = 0; i < n; ++i)
-    {
-        const scalar s = scalar(i) + 1;
-        table.x.emplace_back(1e-3 * std::sin(s), 1 / s, -0.0);
-        p.push_back(std::ldexp(s / 3, int(i % 2000) - 1000));
-        U.emplace_back(-s, std::numeric_limits<scalar>::denorm_min() * s, 1 / s);
-        id.push_back((globalId(1) << 62) + globalId(i));
-    }
-    table.extra["history"] = {0.1, 0.2, 1e308, -0.0};
-    table.extra["empty"] = {};
-    table.attributes["zones"] = "fluid wall buffer";
-    table.attributes["empty"] = "";
-    table.setAttribute("time", 0.1 + 0.2);
-    return table;
-}
-
-template <class T>
-bool sameBits(const List<T>& a, const List<T>& b)
-{
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
-template <class T>
-bool sameBits(const std::map<word, List<T>>& a, const std::map<word, List<T>>& b)
-{
-    if (a.size() != b.size()) return false;
-    for (const auto& [name, values] : a)
-        if (!b.count(name) || !sameBits(values, b.at(name))) return false;
-    return true;
-}
-
-bool sameBits(const particleTable& a, const particleTable& b)
-{
-    return sameBits(a.x, b.x) && sameBits(a.scalars, b.scalars) && sameBits(a.vectors, b.vectors) &&
-           sameBits(a.integers, b.integers) && sameBits(a.extra, b.extra) &&
-           a.attributes == b.attributes;
-}
-
-// The text of the fatalError that body throws, "" if it throws none
-template <class Body>
-word errorOf(const Body& body)
-{
-    try
-    {
-        body();
-    }
-    catch (const fatalError& error)
-    {
-        return error.what();
-    }
-    return "";
-}
-
-bool says(const word& text, const word& part)
-{
-    return text.find(part) != word::npos;
-}
-
-}  // namespace
 
 TEST_CASE("particles read back bit by bit, and equal tables give equal bytes")
 {
@@ -124,16 +53,16 @@ TEST_CASE("numbers that are not finite are refused before anything is written")
     particleTable table = sampleTable(10);
     const word path = folder / "a.hdf";
     table.vectors["U"][7][1] = std::nan("");
-    const word error = errorOf([&] { writeParticles(table, path); });
+    const word error = textOfError([&] { writeParticles(table, path); });
     CHECK(says(error, "'U'"));
     CHECK(says(error, "row 7"));
     CHECK(says(error, "(0.000989358 0.125 -0) m"));
     table = sampleTable(10);
     table.x[2][0] = std::numeric_limits<scalar>::infinity();
-    CHECK(says(errorOf([&] { writeParticles(table, path); }), "row 2"));
+    CHECK(says(textOfError([&] { writeParticles(table, path); }), "row 2"));
     table = sampleTable(10);
     table.extra["history"][1] = std::nan("");
-    CHECK(says(errorOf([&] { writeParticles(table, path); }), "'history'"));
+    CHECK(says(textOfError([&] { writeParticles(table, path); }), "'history'"));
     CHECK(folder.nFiles() == 0);
 }
 
@@ -143,13 +72,13 @@ TEST_CASE("columns of unequal length and impossible names are refused")
     const word path = folder / "a.hdf";
     particleTable table = sampleTable(10);
     table.scalars["p"].pop_back();
-    CHECK(says(errorOf([&] { writeParticles(table, path); }), "9 rows but there are 10"));
+    CHECK(says(textOfError([&] { writeParticles(table, path); }), "9 rows but there are 10"));
     table = sampleTable(10);
     table.scalars["U"] = table.scalars["p"];
-    CHECK(says(errorOf([&] { writeParticles(table, path); }), "two columns"));
+    CHECK(says(textOfError([&] { writeParticles(table, path); }), "two columns"));
     table = sampleTable(10);
     table.scalars["a/b"] = table.scalars["p"];
-    CHECK(says(errorOf([&] { writeParticles(table, path); }), "'a/b'"));
+    CHECK(says(textOfError([&] { writeParticles(table, path); }), "'a/b'"));
     CHECK(folder.nFiles() == 0);
 
     // on disk: a column shortened by somebody else
@@ -160,7 +89,7 @@ TEST_CASE("columns of unequal length and impossible names are refused")
     foreign.group("/ispf/text");
     foreign.attribute("/ispf", "version", List<globalId>{1});
     writeText(path, foreign.bytes());
-    CHECK(says(errorOf([&] { readParticles(path); }), "9 rows but there are 10"));
+    CHECK(says(textOfError([&] { readParticles(path); }), "9 rows but there are 10"));
 }
 
 TEST_CASE("a file cut anywhere is an error, never a crash")
@@ -173,7 +102,7 @@ TEST_CASE("a file cut anywhere is an error, never a crash")
     for (size_t length = bytes.size() - 1;; length -= std::min<size_t>(length, 10))
     {
         std::filesystem::resize_file(path, length);
-        REQUIRE(says(errorOf([&] { readParticles(path); }), path));
+        REQUIRE(says(textOfError([&] { readParticles(path); }), path));
         if (length == 0) break;
     }
 }
@@ -190,7 +119,7 @@ TEST_CASE("changed bytes are an error or change nothing, never a crash")
         word changed = bytes;
         changed[at] = char(changed[at] ^ 0x10);
         setContent(path, changed);
-        const word error = errorOf([&] {
+        const word error = textOfError([&] {
             if (!sameBits(table, readParticles(path)))
                 FAIL("a change was not noticed at byte " << at);
         });
@@ -198,22 +127,74 @@ TEST_CASE("changed bytes are an error or change nothing, never a crash")
     }
 }
 
+TEST_CASE(
+    "what others put in is kept, what they take out or change is missed, and version 1 is read")
+{
+    const scratchFolder folder("edited");
+    const word path = folder / "a.hdf";
+    const particleTable table = sampleTable(5);
+    writeParticles(table, path);
+    const auto edit = [&](const std::function<void(hid_t)>& change) {
+        const hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+        change(file);
+    };
+    const auto addFloat = [](hid_t file, const char* name) {
+        const float T[5] = {1, 2, 3, 4, 0.5};
+        const hsize_t n = 5;
+        const hdf5Id space(H5Screate_simple(1, &n, nullptr), H5Sclose);
+        const hdf5Id set(
+            H5Dcreate2(file, name, H5T_NATIVE_FLOAT, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+            H5Dclose);
+        H5Dwrite(set, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, T);
+    };
+    edit([&](hid_t file) { addFloat(file, "/VTKHDF/PointData/T"); });
+    particleTable more = table;
+    more.scalars["T"] = {1, 2, 3, 4, 0.5};
+    CHECK(sameBits(more, readParticles(path)));
+
+    const auto remove = [&](const char* name) {
+        return [name](hid_t file) { H5Ldelete(file, name, H5P_DEFAULT); };
+    };
+    edit(remove("/VTKHDF/PointData/p"));
+    CHECK(says(textOfError([&] { readParticles(path); }), "'/VTKHDF/PointData/p' is missing"));
+    edit(
+        [&](hid_t file) { addFloat(file, "/VTKHDF/PointData/p"); });  // of other values, on purpose
+    CHECK(readParticles(path).scalars.at("p")[4] == 0.5);
+
+    writeParticles(table, path);
+    edit([](hid_t file) {
+        H5Lmove(file, "/VTKHDF/PointData/p", H5L_SAME_LOC, "/VTKHDF/PointData/q", H5P_DEFAULT,
+                H5P_DEFAULT);
+    });
+    CHECK(says(textOfError([&] { readParticles(path); }), "does not fit its content"));
+
+    hdf5Writer old;
+    old.group("/VTKHDF/PointData"), old.group("/ispf/extra"), old.group("/ispf/text");
+    old.write("/VTKHDF/Points", table.x);
+    old.attribute("/ispf", "version", List<globalId>{1});
+    writeText(path, old.bytes());
+    CHECK(readParticles(path).x == table.x);  // without a checksum: with a note
+    old.attribute("/ispf", "checksum", List<globalId>{7});
+    writeText(path, old.bytes());
+    CHECK(says(textOfError([&] { readParticles(path); }), "does not fit its content"));
+}
+
 TEST_CASE("missing, foreign and newer files are told apart")
 {
     const scratchFolder folder("foreign");
     const word path = folder / "a.hdf";
-    CHECK(says(errorOf([&] { readParticles(path); }), "No such file"));
+    CHECK(says(textOfError([&] { readParticles(path); }), "No such file"));
     setContent(path, "solid cube\n");
-    CHECK(says(errorOf([&] { readParticles(path); }), "not an HDF5 file"));
+    CHECK(says(textOfError([&] { readParticles(path); }), "not an HDF5 file"));
     hdf5Writer other;
     other.write("/data", List<scalar>{1});
     writeText(path, other.bytes());
-    CHECK(says(errorOf([&] { readParticles(path); }), "not one of particles"));
+    CHECK(says(textOfError([&] { readParticles(path); }), "not one of particles"));
     other.group("/VTKHDF/PointData");
     other.group("/ispf");
     other.attribute("/ispf", "version", List<globalId>{999});
     writeText(path, other.bytes());
-    CHECK(says(errorOf([&] { readParticles(path); }), "version is 999"));
+    CHECK(says(textOfError([&] { readParticles(path); }), "version is 999"));
 }
 
 TEST_CASE("attributes keep their bits and errors list what there is")
@@ -225,6 +206,6 @@ TEST_CASE("attributes keep their bits and errors list what there is")
         CHECK(table.scalarAttribute("time") == value);
     }
     table.attributes["zones"] = "fluid";
-    CHECK(says(errorOf([&] { table.scalarAttribute("zones"); }), "no number"));
-    CHECK(says(errorOf([&] { table.scalarAttribute("dx"); }), "time zones"));
+    CHECK(says(textOfError([&] { table.scalarAttribute("zones"); }), "no number"));
+    CHECK(says(textOfError([&] { table.scalarAttribute("dx"); }), "time zones"));
 }

@@ -58,7 +58,8 @@ TEST_CASE("write controls")
 
 TEST_CASE("mistakes in functions")
 {
-    CHECK_ERROR(wrong("a { type probe; }"), "Valid types are: cavityVolume lineProfile minMax", 3);
+    CHECK_ERROR(wrong("a { type probe; }"),
+                "Valid types are: cavityVolume energy forces lineProfile", 3);
     CHECK_ERROR(wrong("a { type minMax; feilds (p); }"), "Did you mean 'fields'?", 3);
     CHECK_ERROR(wrong("a { type minMax; fields (T); }"), "Valid fields are: U p", 3);
     CHECK_ERROR(wrong("a { type minMax; zones (wall); }"), "Valid zones are: chamber", 3);
@@ -71,7 +72,7 @@ TEST_CASE("mistakes in functions")
     CHECK_ERROR(wrong("a { type minMax; phase gas; }"), "Valid phases are: all fluid solid", 3);
     CHECK_ERROR(wrong("a { type minMax; phase all; zones (chamber); }"), "not both", 3);
     CHECK_ERROR(wrong("a { type probes; }"), "'probeLocations' is missing", 3);
-    CHECK_ERROR(wrong("a { type minMax; writeInterval 0.5; }"), "must lie between 1", 3);
+    CHECK_ERROR(wrong("a { type minMax; writeInterval 0.5; }"), "a whole number", 3);
     CHECK_ERROR(wrong("a { type minMax; writeControl writeTime; writeInterval 2; }"),
                 "takes no writeInterval", 3);
     CHECK_ERROR(wrong("a { type patchFlux; }"), "either a patch or a surface", 3);

@@ -13,22 +13,20 @@ namespace
 
 // Quarter x > 0, y > 0 of a block of fluid below z = 10 mm and of wall above it; U and p are linear
 // and fit the symmetry planes x = 0, y = 0
-particleTable quarter()
+const particleCloud& quarter()
 {
-    particleTable t;
-    const scalar dx = 1e-3;
+    static particleCloud t;
+    if (t.n() > 0) return t;
+    const scalar dx = t.dx = 1e-3;
+    t.zones = {{"fluid"}, {"wall"}};
     for (int k = 0; k < 14; ++k)
         for (int j = 0; j < 8; ++j)
             for (int i = 0; i < 8; ++i)
             {
                 const vector x = dx * vector(i + 0.5, j + 0.5, k + 0.5);
-                t.x.push_back(x);
-                t.vectors["U"].emplace_back(2 * x[0], 3 * x[1], 1 - 4 * x[2]);
-                t.scalars["p"].push_back(5 + 6 * x[2]);
-                t.integers["zone"].push_back(k < 10 ? 0 : 1);
+                const vector U(2 * x[0], 3 * x[1], 1 - 4 * x[2]);
+                t.append(x, k < 10 ? 0 : 1, vec4::from(U, 5 + 6 * x[2]), t.nextId());
             }
-    t.setAttribute("dx", dx);
-    t.attributes["zones"] = "fluid wall";
     return t;
 }
 
@@ -38,7 +36,7 @@ const word across =
 
 samplePlane plane(const word& text)
 {
-    return samplePlane("across", dictionary::fromString(text));
+    return samplePlane("across", dictionary::fromString(text), quarter());
 }
 
 // Rows of numbers, "NaN" included
@@ -110,8 +108,8 @@ TEST_CASE("planes that cannot be are refused")
                 "must not be zero", 1);
     word text = across;
     text.replace(text.find("(fluid)"), 7, "(fluit)");
-    CHECK_ERROR(plane(text).grid(quarter()), "Valid zones are: fluid wall", 1);
+    CHECK_ERROR(plane(text), "Valid zones are: fluid wall", 1);
     text = across;
     text.replace(text.find("(U p)"), 5, "(U T)");
-    CHECK_ERROR(plane(text).grid(quarter()), "no field 'T'", 1);
+    CHECK_ERROR(plane(text), "no field 'T'", 1);
 }

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Energies and powers of all particles but those beyond open faces, of the whole body where symmetry planes cut it
+// [J], [W], per metre in two dimensions:
+//
+//     balance { type energy; }
+//
+//     kinetic       sum 1/2 rho V u^2
+//     elastic       of the structure
+//     potential     - sum rho V b.x, b the body force of each zone
+//     dissipation   1/2 mu sum_i V sum_j (c_i + c_j) |F_ij| |u_i - u_j|^2, what the viscosity's own pair sum
+//                   (sphc::laplacian) takes out; pairs with images count half, the other half is the image's
+//     wallPower     what moving walls put in: minus the traction of surfaceFit times their velocity, of the step ahead
+//     dissipated, wallWork    their integrals since the case began, by the trapezoidal rule over the steps at which
+//                   it is executed
+//
+// kinetic + elastic + potential + dissipated - wallWork is constant but for what open faces bring in and what the
+// scheme itself takes: implicit steps damp by some dt/2 sum rho V (du/dt)^2.
+#include "functionObject.H"
+
+#include "loadedBody.H"
+#include "sphc.H"
+
+namespace ispf
+{
+
+namespace
+{
+
+// Neighbours of the particles where they stand, without a change to the case
+struct presentState
+{
+    particleCloud cloud;
+    neighbourList list;
+    kernelCorrection B;
+
+    explicit presentState(const fsiCase& c) : cloud(c.cloud)
+    {
+        cloud.clearGhosts();
+        c.walls->setFlags(cloud, c.rho, c.bodyForce);
+        c.walls->updateGhosts(cloud);
+        list.build(cloud, *c.kernel, c.walls->visible(cloud));
+        B.build(cloud, list);
+        cloud.fillGhosts(cloud.Up, false);
+    }
+};
+
+scalar dissipationOf(const presentState& s, scalar mu)
+{
+    const particleCloud& cloud = s.cloud;
+    const List<scalar> c = sphc::laplacianScale({cloud, s.list, s.B});
+    const scalar sum = parallelSum(cloud.n(), [&](label begin, label end) {
+        scalar part = 0;
+        for (label i = begin; i < end; ++i)
+            for (std::int64_t k = s.list.start[i]; k < s.list.start[i + 1] && !cloud.pFixed[i]; ++k)
+            {
+                const label j = s.list.index[k];
+                const bool rigid = cloud.phase[j] == phaseType::rigid;
+                const vector e = (rigid ? 2 : 1) * (cloud.Up[i].xyz() - cloud.Up[j].xyz());
+                part -= s.list.F[k] * (c[i] + (rigid ? c[i] : c[j])) * e.squaredNorm();
+            }
+        return part;
+    });
+    return 0.5 * mu * cloud.volume() * sum;
+}
+
+class energy : public functionObject
+{
+public:
+    energy(const word& name, const dictionary& dict, const fsiCase& c)
+        : functionObject(name, dict, c),
+          file_(table("energy.dat",
+                      {"Energies [J], powers [W] and their integrals [J]" +
+                       word(c.cloud.nDims == 2 ? ", per metre" : "")},
+                      {"kinetic", "elastic", "potential", "dissipation", "wallPower", "dissipated",
+                       "wallWork"},
+                      9))
+    {
+        for (const word& w : c.walls->movingWalls())
+            walls_.push_back(loadedBody::wall(w, c, dict.where()));
+    }
+
+    void execute() override { advance(); }
+
+    void write() override
+    {
+        advance();
+        const auto [kinetic, potential] = mechanical();
+        const scalar whole = case_.walls->symmetryFactor();
+        file_.begin(case_.time.value())
+            << whole * kinetic
+            << (case_.structure ? whole * case_.structure->energy(case_.cloud.x) : 0)
+            << whole * potential << now_.dissipation << now_.wallPower << dissipated_ << wallWork_;
+        file_.endRow();
+    }
+
+    List<scalar> state() const override
+    {
+        return {time_, now_.dissipation, now_.wallPower, dissipated_, wallWork_};
+    }
+    void restore(const List<scalar>& s) override
+    {
+        if (s.size() != 5) return;
+        time_ = s[0], now_ = {s[1], s[2]}, dissipated_ = s[3], wallWork_ = s[4], known_ = true;
+    }
+
+private:
+    struct powers
+    {
+        scalar dissipation = 0, wallPower = 0;
+    };
+
+    std::pair<scalar, scalar> mechanical() const
+    {
+        const particleCloud& cloud = case_.cloud;
+        particleCloud flagged = cloud;
+        flagged.clearGhosts();
+        case_.walls->setFlags(flagged, case_.rho, case_.bodyForce);
+        const scalar mass = case_.rho * cloud.volume();
+        scalar kinetic = 0, potential = 0;
+        for (label i = 0; i < cloud.n(); ++i)
+        {
+            if (flagged.pFixed[i]) continue;
+            kinetic += 0.5 * mass * cloud.Up[i].xyz().squaredNorm();
+            if (!case_.bodyForce.empty())
+                potential -= mass * case_.bodyForce[cloud.zone[i]].dot(cloud.x[i].xyz());
+        }
+        return {kinetic, potential};
+    }
+
+    powers measure() const
+    {
+        const presentState s(case_);
+        powers p;
+        p.dissipation = dissipationOf(s, case_.mu);
+        for (const loadedBody& wall : walls_)
+            for (const loadedBody::side& side : wall.sides())
+                for (size_t k = 0; k < side.facets.size(); ++k)
+                {
+                    const fluidAt& f = side.fluid[k];
+                    if (!f.covered) continue;
+                    const vector& area = side.facets[k].area;
+                    const vector onWall = f.p * area - viscousStress(f, case_.mu) * area;
+                    p.wallPower -=
+                        onWall.dot(case_.walls->wallVelocity(wall.name(), side.facets[k].centre));
+                }
+        const scalar whole = case_.walls->symmetryFactor();
+        return {whole * p.dissipation, whole * p.wallPower};
+    }
+
+    void advance()
+    {
+        const scalar t = case_.time.value();
+        if (known_ && t == time_) return;
+        const powers next = measure();
+        if (known_ && t > time_)
+        {
+            dissipated_ += 0.5 * (t - time_) * (now_.dissipation + next.dissipation);
+            wallWork_ += 0.5 * (t - time_) * (now_.wallPower + next.wallPower);
+        }
+        now_ = next, time_ = t, known_ = true;
+    }
+
+    dataFile file_;
+    List<loadedBody> walls_;
+    powers now_;
+    scalar time_ = 0, dissipated_ = 0, wallWork_ = 0;
+    bool known_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<functionObject> newEnergy(const word& name, const dictionary& dict,
+                                          const fsiCase& c)
+{
+    return std::make_unique<energy>(name, dict, c);
+}
+
+}  // namespace ispf

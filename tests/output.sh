@@ -1,0 +1,144 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What a run leaves on disk: both formats, purged times, tables of function objects during the run and afterwards;
+# damaged states, a full disk and folders that cannot be made
+set -uo pipefail
+. "$(dirname "$0")/cases/functions"
+control=system/controlDict
+says() { grep -qE -- "$1" log || fail "$PWD: '$1' is not said: $(tail -n 6 log)"; }
+refused() { solve && fail "$PWD: not refused"; says "$1"; }
+vtpTimes() { awk -f "$cases/series.awk" particles.vtp.series | sort -g | tr '\n' ' '; }
+
+# ---- ascii and hdf5 continue each other bit by bit ----------------------------------------------------
+newCase membrane hdf5
+setEntry $control writeInterval 10; setEntry $control endTime 0.3
+echo 'functions
+{
+    top     { type patchFlux; patch top; }
+    exit    { type patchFlux; surface wall_to_bath; zones (bath); }
+    mid     { type zoneDiameter; surface wall_to_chamber; point (0.1 0.1 0); axis (0 0 1); enabled no; }
+    cavity  { type cavityVolume; surface wall_to_chamber; }
+    line    { type lineProfile; start (0.1 0.01 0); end (0.1 0.19 0); fields (U p); phase all; }
+    most    { type minMax; }
+    at      { type probes; probeLocations ((0.1 0.05 0)); }
+    leaks   { type surfaceLeaks; surface wall_to_chamber; zones (chamber); }
+    load    { type forces; patches (piston); zones (wall); }
+    shear   { type surfaceSample; patches (walls); zones (wall); surfaceFormat raw; }
+    map     { type planeMap; point (0 0 0); normal (0 0 1); xAxis (1 0 0); xRange (0 0.2); yRange (-0.2 0);
+              spacing 0.02; zones (chamber bath); fields (U p); slice { zones (wall); thickness 0.01; } }
+    power   { type energy; }
+}' >> $control
+place
+solved
+for mixed in ascii-ascii hdf5-ascii ascii-hdf5; do
+    rm -rf "../$mixed"; cp -r . "../$mixed"; cd "../$mixed" || exit 1
+    rm -r 0.* postProcessing particles.hdf.series log
+    for format in ${mixed/-/ } hdf5; do  # of 0.1, of 0.2, of 0.3
+        echo "writeFormat $format;" >> $control
+        solved
+        [ $format = hdf5 ] || [ -e 0.3/U ] || fail "$mixed: $(ls 0.3)"
+        [ -e kept ] && rm -rf 0.3 || rm -rf 0.2 0.3
+        touch kept
+    done
+    solved
+    same 0.3 ../hdf5/0.3 "$mixed"
+    cd ../hdf5 || exit 1
+done
+cd ../ascii-ascii || exit 1
+[ "$(vtpTimes)" = "0.1 0.1/particles.vtp 0.2 0.2/particles.vtp " ] || fail "particles.vtp.series: $(vtpTimes)"
+grep -q "^    class       particleVectorField;$" 0.1/U || fail "0.1/U has no header: $(head -n 8 0.1/U)"
+
+# ---- afterwards the tables are those of the run ---------------------------------------------------------
+cd ../hdf5 || exit 1
+mv postProcessing written
+ispfPostProcess > log 2>&1 || fail "ispfPostProcess: $(tail -n 5 log)"
+[ "$(ls postProcessing)" = "$(ls written | grep -vx volumeLedger)" ] || fail "other functions: $(ls postProcessing)"
+for file in $(cd postProcessing && find . -type f); do
+    # the rows of the written times; texts without times are equal as they are
+    awk -v times=" 0 0.1 0.2 0.3 " -v table="$([[ $file == *.dat && $file != */line.dat && $file != ./map/* ]] || [[ $file == ./at/* ]]; echo $?)" \
+        '/^#/ || table != 0 || index(times, " " $1 " ")' "written/$file" | cmp -s - "postProcessing/$file" ||
+        fail "$file: $(awk 'index(" 0 0.1 0.2 0.3 ", " " $1 " ")' "written/$file" | diff - "postProcessing/$file" | head -n 4)"
+done
+cp -r postProcessing before
+ispfPostProcess -func "(most load)" -time '0.1:0.2' > log 2>&1 || fail "-func: $(tail -n 5 log)"
+[ "$(grep -vc '^#' postProcessing/most/0.1/minMax.dat)" = 2 ] && [ -e postProcessing/load/0.1/force.dat ] || fail "-func, -time"
+ispfPostProcess -latestTime > log 2>&1 && ispfPostProcess > log 2>&1 || fail "again: $(tail -n 5 log)"
+cmp -s before/most/0/minMax.dat postProcessing/most/0/minMax.dat || fail "a table of before was touched"
+cmp -s before/most/0/minMax.dat postProcessing/most/0/minMax_0.dat || fail "no minMax_0.dat beside it"
+echo "a { type minMax; writePrecision 2; fields (p); } b { type probes; probeLocations ((0.1 0.05 0)); }" > system/more
+ispfPostProcess -dict system/more -latestTime > log 2>&1 || fail "-dict: $(tail -n 5 log)"
+awk '!/^#/ && $2 ~ /^-?[0-9][.][0-9][0-9]e/ { found = 1 } END { exit !found }' postProcessing/a/0.3/minMax.dat || fail "writePrecision"
+echo "type minMax;" > system/extremes
+ispfPostProcess -func extremes -time 0.2 > log 2>&1 && [ -e postProcessing/extremes/0.2/minMax.dat ] || fail "-func of a file: $(tail -n 3 log)"
+denied() { ispfPostProcess "${@:2}" > log 2>&1 && fail "accepted: ${*:2}"; says "$1"; }
+denied "Did you mean 'most'" -func mots
+denied "nearest time is 0.[12]" -time 0.15
+denied "is not a list of times" -time x
+denied "is not a list of times" -time ""
+denied "No particles were written at times 7:" -time 7:
+
+# ---- energies: a decaying flow, and an elastic wall that a piston bulges ever faster --------------------
+cp -r "$cases/../../tutorials/ispfFsiFoam/taylorGreen" ../decay; cd ../decay || exit 1
+echo "functions { e { type energy; } } endTime 0.1;" >> $control
+place; solved
+awk '!/^#/ { if (!n++) { e0 = $2; bad = ($2/0.25 - 1)^2 > 1e-8 || ($5/(16*3.14159265^2*0.01*0.25) - 1)^2 > 1e-4 } last = ($2 + $7)/e0 }
+    END { exit bad || n != 51 || (last - 1)^2 > 1e-4 }' postProcessing/e/0/energy.dat || fail "Taylor-Green: $(sed -n '3p;$p' postProcessing/e/0/energy.dat)"
+newCase membrane bulging
+ramp=$(awk 'BEGIN { for (i = 0; i <= 50; ++i) { t = i*0.0025; printf "(%.6g %.8g)", t, 0.5*t*t } }')
+sed -i "s/displacement { .* } }/displacement table ($ramp); }/" constant/boundary
+echo "functions { e { type energy; } } endTime 0.125; deltaT 0.0025; writeInterval 50;" >> $control
+place; solved
+awk '!/^#/ { all = $2 + $3 + $7; work = $8; share = $3/all } END { exit !(share > 0.05 && (all/work - 1)^2 < 0.0025) }' \
+    postProcessing/e/0/energy.dat || fail "what the piston puts in and where it is: $(tail -n 1 postProcessing/e/0/energy.dat)"
+cd ../hdf5 || exit 1
+
+# ---- purged times leave the series true, in both formats and after a restart ---------------------------
+for format in hdf5 ascii; do
+    rm -rf ../purge; cp -r ../hdf5 ../purge; cd ../purge || exit 1
+    rm -r 0.* particles.*.series; sed -i '/^functions/,$d' $control
+    echo "writeFormat $format; purgeWrite 2; writeInterval 2; endTime 0.1;" >> $control
+    solved
+    echo "endTime 0.16;" >> $control
+    solved
+    file=particles.$([ $format = hdf5 ] && echo hdf || echo vtp)
+    [ "$(awk -f "$cases/series.awk" $file.series | sort -g)" = "$(for f in */"$file"; do echo "${f%%/*} $f"; done | sort -g)" ] ||
+        fail "$format: $(cat $file.series)"
+    [ "$(ls -d 0.* | tr '\n' ' ')" = "0.08 0.1 0.14 0.16 " ] || fail "$format: purged to $(ls -d 0.*)"
+done
+
+# ---- a last state that is no good is the user's to put away -------------------------------------------
+cd ../hdf5 || exit 1
+cp 0.3/particles.hdf good.hdf
+truncate -s -100 0.3/particles.hdf
+refused "Cannot read '.*/0.3/particles.hdf': not an HDF5 file, or truncated"
+says "To continue from time 0.2, move the folder .*/0.3 away, or set startFrom startTime and startTime 0.2"
+printf x | dd of=0.3/particles.hdf bs=1 seek=20000 conv=notrunc 2> log.dd; cp good.hdf 0.3/particles.hdf
+printf '\x55' | dd of=0.3/particles.hdf bs=1 seek=$(($(stat -c %s good.hdf) / 2)) conv=notrunc 2> log.dd
+refused "checksum of '/.*' does not fit its content"
+h5dump -d /VTKHDF/PointData/p -o values.txt good.hdf > log.h5dump && echo "solid" > 0.3/particles.hdf
+refused "not an HDF5 file"
+mv 0.3 ../bad
+solved
+cp good.hdf ../bad/particles.hdf; same 0.3 ../bad "from the state before"
+
+# ---- a full disk, folders that cannot be made: what was written stays ---------------------------------
+cd ../purge || exit 1
+echo "purgeWrite 0; writeFormat hdf5; endTime 0.18;" >> $control
+cp -r . ../full; cd ../full || exit 1
+find . -type f -not -name 'log*' -not -path './system/*' -exec md5sum {} + | sort > ../sums
+# as the file system says it: a limit on the size of a file
+(ulimit -f 40; trap '' XFSZ; ispfFsiFoam > /dev/null 2> log) && fail "a full disk is not noticed"
+says "Free some space or raise the limit"
+md5sum --quiet -c ../sums > log.sums 2>&1 || fail "full disk: $(cat log.sums)"
+find . -name '*.tmp' | grep . && fail "temporary files are left"
+echo "writeFormat ascii;" >> $control
+(ulimit -f 20; trap '' XFSZ; ispfFsiFoam > /dev/null 2> log) && fail "a full disk is not noticed, ascii"
+says "Free some space or raise the limit"
+md5sum --quiet -c ../sums > log.sums 2>&1 || fail "full disk, ascii: $(cat log.sums)"
+[ -e 0.18/U ] && fail "a part of a state: $(ls 0.18)"
+rm -rf 0.18; echo "not a folder" > 0.18
+refused "Cannot write '.*/0.18/.*': creating folder"
+rm 0.18; rm -rf postProcessing; echo "not a folder" > postProcessing
+refused "Cannot write '.*/postProcessing/.*': creating folder"
+md5sum --quiet -c <(grep -v postProcessing ../sums) > log.sums 2>&1 || fail "no folder: $(cat log.sums)"
+[ $failures = 0 ]
