@@ -6,8 +6,8 @@ set -uo pipefail
 . "$(dirname "$0")/cases/functions"
 newCase membrane sound; place
 setEntry system/controlDict endTime 0.02; setEntry system/controlDict writeInterval 1
-echo "a { point (0 0 0); normal (0 0 1); xAxis (1 0 0); xRange (0 0.2); yRange (0 0.2); spacing 0.01;
-    fields (U p); zones (bath); }" > system/planeSampleDict
+echo "type planeMap; point (0 0 0); normal (0 0 1); xAxis (1 0 0); xRange (0 0.2); yRange (0 0.2); spacing 0.01;
+    fields (U p); zones (bath);" > system/map
 solved; rm log
 setEntry system/controlDict endTime 0.04
 
@@ -33,7 +33,7 @@ nested() { awk -v n="$1" 'BEGIN { for (i = 0; i < n; ++i) printf "a { "; for (i 
 control=system/controlDict
 
 # ---- files that are missing, empty, or folders --------------------------------------------------------------
-for program in ispfFsiFoam checkParticles planeSample generateParticles calibrateSprings; do
+for program in ispfFsiFoam checkParticles ispfPostProcess generateParticles calibrateSprings; do
     refused "case folder .*nowhere" "true" $program -case nowhere
     refused "Unknown option '-foo'" "true" $program -foo
 done
@@ -42,7 +42,7 @@ refused "Cannot read .*system/sphSolution: No such file" "rm system/sphSolution"
 refused "Cannot read .*physicalProperties: it is a folder" "rm constant/physicalProperties; mkdir constant/physicalProperties" ispfFsiFoam
 refused "Cannot read .*particleDict: No such file" "rm system/particleDict" generateParticles
 refused "Cannot read .*structureProperties: No such file" "rm constant/structureProperties" calibrateSprings
-refused "Cannot read .*planeSampleDict: No such file" "rm system/planeSampleDict" planeSample
+refused "There is no function .map., nor .*system/map" "rm system/map" ispfPostProcess -func map
 refused "0/particles.hdf|generateParticles" "rm -r 0 0.*; rm *.series" ispfFsiFoam
 refused "particles.hdf|generateParticles" "rm -r 0 0.*; rm *.series" checkParticles
 refused "'endTime' is missing" "put $control ''" ispfFsiFoam
@@ -96,7 +96,7 @@ accepted "sed -i 's/\$/\r/' system/particleDict constant/boundary" generateParti
 # ---- HDF5 -------------------------------------------------------------------------------------------------------
 foreign() { h5repack -l CHUNK=2 0.02/particles.hdf x > /dev/null 2>&1; printf 'not HDF5 at all' > "$1"; rm -f x; }
 for broken in "truncate -s 3000" "truncate -s 100" "truncate -s 0" foreign; do
-    for program in ispfFsiFoam checkParticles "planeSample -latestTime"; do
+    for program in ispfFsiFoam checkParticles "ispfPostProcess -func map -latestTime"; do
         # shellcheck disable=SC2086
         refused "Cannot read '.*/0.02/particles.hdf'" "$broken 0.02/particles.hdf" $program
     done
@@ -111,5 +111,5 @@ full="trap '' XFSZ; ulimit -f 40; exec"
 refused "Cannot write.*0.03/particles.hdf" "true" bash -c "$full ispfFsiFoam"
 refused "Cannot write.*particles.hdf" "rm -r 0 0.* constant/*.hdf *.series" bash -c "$full generateParticles"
 refused "0.03" "touch 0.03" ispfFsiFoam
-refused "postProcessing" "touch postProcessing_; rm -rf postProcessing; mv postProcessing_ postProcessing" planeSample
+refused "postProcessing" "touch postProcessing_; rm -rf postProcessing; mv postProcessing_ postProcessing" ispfPostProcess -func map
 [ $failures = 0 ]
