@@ -38,8 +38,22 @@ sed -i -E "s|^( *)surface( *)myWall_to_myFluid;( *)// needed, or patches|\1patch
 place; solved
 ls postProcessing/myFlux/0/*.dat > /dev/null && grep -q myWalls postProcessing/myLeaks/0/*.dat || fail "a surface in place of a patch"
 annotatedCase
-sed -i -E "s|^ *direction .*||; s|^ *displacement .*||; s|//(velocity .*)|\1|" constant/boundary
+sed -i -E "s|^ *direction .*||; s|^ *displacement .*||; s|//(velocity .*1e-3 .*)|\1|" constant/boundary
 place; solved
+
+# what constant/boundary holds in comments, in place of other entries
+boundaryWith() {
+    annotatedCase
+    sed -i -E "$1" constant/boundary
+    place
+}
+shown() { printf 's|^( *)//(%s)|\\1\\2|; ' "$@"; }
+boundaryWith "$(shown 'velocity .*into the fluid' 'profile ' 'direction .*of flowRate')s|^( *)p .*||"; solved
+boundaryWith "$(shown 'flowRate ')s|^( *)p .*||"
+solve && fail "a flow rate through a plane without an end is accepted"
+grep -q "The area of a plane" log || fail "flowRate: $(tail -n 5 log)"
+boundaryWith "$(shown 'slip ')s|^( *)representation .*||; s|^    velocity .*||"; solved
+boundaryWith "$(shown 'velocity .*speed' 'rotation .*itself')s|^    velocity  *\\(.*||"; solved
 
 # a wrong place is told
 annotatedCase; place
@@ -51,9 +65,9 @@ grep -q "Nothing reads the entry 'theta'" log || fail "theta: $(tail -n 5 log)"
 printf 'time,value\n0,0\n1,2\n' > values.csv
 annotatedCase; place
 printf 'time,value\n0,0\n1,2\n' > values.csv
-for name in p myTable myCsv mySine myPolynomial myProduct; do
+for name in p myTable myCsv mySine myPolynomial myRamp myProduct; do
     { sed -n '/^type\|^$/d; p' "$annotated/boundary"; echo "#include \"Function1\""; echo "myOpenFace { p \$$name; }"
-      for other in p myTable myCsv mySine myPolynomial myProduct; do echo "#remove $other"; done; } > constant/boundary
+      for other in p myTable myCsv mySine myPolynomial myRamp myProduct; do echo "#remove $other"; done; } > constant/boundary
     cp "$annotated/Function1" constant/
     solved
 done

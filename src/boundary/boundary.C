@@ -13,8 +13,21 @@
 namespace ispf
 {
 
+List<scalar> patchBalance::state() const
+{
+    return {swept, scalar(created), scalar(deleted), scalar(pushed), volume, flux};
+}
+
+void patchBalance::restore(const List<scalar>& s)
+{
+    if (s.size() < 4) return;
+    swept = s[0], created = label(s[1]), deleted = label(s[2]), pushed = label(s[3]);
+    if (s.size() == 6) volume = s[4], flux = s[5];
+}
+
 struct boundary::content
 {
+    scalar t0 = 0;  // start of the step
     imageGroup group;
     wallSet walls;
     wallGuard guard;
@@ -25,11 +38,15 @@ struct boundary::content
     List<openFace> openFaces;
     List<label> openIndex;  // of an open face in the balance
     List<patchBalance> balance;
+    List<std::pair<label, label>> clamped;  // solid particle, wall
 
     void addPatch(const word& name, const dictionary& dict, const word& caseFolder);
+    faceMesh meshOf(const word& name, const dictionary& dict, const word& caseFolder,
+                    const particleCloud& cloud) const;
     void addOpenFaces(const word& caseFolder, const dictionary& patches,
                       const particleCloud& cloud);
-    label putBack(particleCloud& cloud) const;
+    void checkDrops(const dictionary& patches, const particleCloud& cloud, scalar support) const;
+    void putBack(particleCloud& cloud);
 };
 
 void boundary::content::addPatch(const word& name, const dictionary& dict, const word& caseFolder)
@@ -43,7 +60,10 @@ void boundary::content::addPatch(const word& name, const dictionary& dict, const
                                nonZero(dict, "normal"));
     else if (type == "cyclic")
         group.addCyclic(name, dict.get<vector>("point", dims::length),
-                        nonZero(dict, "separation", dims::length));
+                        nonZero(dict, "separation", dims::length),
+                        dict.found("pressureDrop")
+                            ? Function1::New("pressureDrop", dict, caseFolder, dims::pressure)
+                            : nullptr);
     else if (type == "open") openIndex.push_back(index);
     else
     {
@@ -51,6 +71,40 @@ void boundary::content::addPatch(const word& name, const dictionary& dict, const
         w.index = index;
         walls.add(std::move(w));
     }
+}
+
+// The rows of the solid know nothing of a pressure that differs between a pair's sides
+void boundary::content::checkDrops(const dictionary& patches, const particleCloud& cloud,
+                                   scalar support) const
+{
+    for (const word& name : patches.dictKeys())
+    {
+        const dictionary& dict = patches.subDict(name);
+        if (!dict.found("pressureDrop")) continue;
+        const vector low = dict.get<vector>("point", dims::length),
+                     separation = dict.get<vector>("separation", dims::length);
+        for (label i = 0; i < cloud.nSolid(); ++i)
+        {
+            const scalar along = (cloud.x[i].xyz() - low).dot(separation.normalized());
+            if (along > support && along < separation.norm() - support) continue;
+            dict.fail(
+                "pressureDrop",
+                "A solid reaches over the cyclic patch " + name + " (" + cloud.describe(i) +
+                    "): its load would not know of the pressure drop. Drive the fluid's zone "
+                    "with bodyForce in constant/physicalProperties instead: pressureDrop over "
+                    "rho times the length");
+        }
+    }
+}
+
+faceMesh boundary::content::meshOf(const word& name, const dictionary& dict, const word& caseFolder,
+                                   const particleCloud& cloud) const
+{
+    const bool plane = dict.found("surface") && dict.get<word>("surface") == "plane";
+    triSurface s = plane ? walls.rectangle(dict.get<vector>("point", dims::length),
+                                           nonZero(dict, "normal").normalized())
+                         : readPatch(caseFolder, name, dict);
+    return s.empty() ? faceMesh() : faceMesh(std::move(s), group, cloud);
 }
 
 void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& patches,
@@ -61,8 +115,11 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
     for (const label index : openIndex)
     {
         const word& name = balance[index].name;
-        openFaces.emplace_back(name, patches.subDict(name), caseFolder, group, cloud.dx,
-                               sites.stripLayers());
+        const dictionary& dict = patches.subDict(name);
+        openFaces.emplace_back(name, dict, caseFolder,
+                               openFace::setting{group, cloud, sites.stripLayers(),
+                                                 meshOf(name, dict, caseFolder, cloud),
+                                                 [&](const vector& x) { return walls.holds(x); }});
     }
     const auto allowed = [&](const vector& x, scalar distance) {
         for (const openFace& face : openFaces)
@@ -83,6 +140,7 @@ boundary::boundary(const word& caseFolder, const dictionary& patches, const part
     content& c = *content_;
     for (const word& name : patches.dictKeys()) c.addPatch(name, patches.subDict(name), caseFolder);
     c.group.close(cloud, support);
+    c.checkDrops(patches, cloud, support);
     c.walls.read(caseFolder, patches, c.group, cloud, support, t0);
     c.walls.setStep(0, 1);
     c.wetted.find(c.walls, c.group, cloud);
@@ -98,14 +156,44 @@ boundary::~boundary() = default;
 
 void boundary::setStep(scalar t0, scalar t1)
 {
-    content_->walls.setStep(t0, t1);
-    for (openFace& face : content_->openFaces) face.setTime(t1);
+    content_->t0 = t0;
+    content_->walls.setStep(t0, t1), content_->group.setTime(t1);
+    for (openFace& face : content_->openFaces) face.setStep(t0, t1);
 }
 
 void boundary::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bodyForce) const
 {
     std::fill(cloud.pFixed.begin(), cloud.pFixed.end(), 0);
+    std::fill(cloud.uFixed.begin() + cloud.nSolid(), cloud.uFixed.end(), 0);
+    for (const auto& [i, w] : content_->clamped)
+        cloud.Up[i].setXyz(content_->walls.walls()[w].surfaceVelocity.at(cloud.x[i].xyz()));
     for (const openFace& face : content_->openFaces) face.setFlags(cloud, rho, bodyForce);
+}
+
+void boundary::clampSolids(particleCloud& cloud, const List<vec4>& x0, const dictionary& patches)
+{
+    const wallSet& walls = content_->walls;
+    for (label w = 0; w < label(walls.walls().size()); ++w)
+    {
+        const wall& at = walls.walls()[w];
+        for (const word& name : at.clamps)
+        {
+            const fileLocation where = patches.subDict(at.name).where("clamps");
+            const label zone = cloud.zoneIndex(name, where);
+            if (cloud.zones[zone].phase != phaseType::solid)
+                throw fatalError("Zone " + name + " is fluid: a wall clamps solids only", where);
+            const size_t before = content_->clamped.size();
+            for (label i = 0; i < cloud.nSolid(); ++i)
+                if (cloud.zone[i] == zone &&
+                    walls.distance(w, x0[i].xyz()) < at.clampDepth * cloud.dx)
+                    cloud.uFixed[i] = 1, content_->clamped.push_back({i, w});
+            if (content_->clamped.size() == before)
+                throw fatalError("No particle of zone " + name + " rests within " +
+                                     str(at.clampDepth) + " dx of wall " + at.name +
+                                     ": there is nothing to clamp. Do they touch?",
+                                 where);
+        }
+    }
 }
 
 bool boundary::hasOpen() const
@@ -134,19 +222,23 @@ neighbourList::visibility boundary::visible(const particleCloud& cloud) const
 }
 
 // Fluid that stepped over a symmetry plane is reflected, over a cyclic side carried to the other
-label boundary::content::putBack(particleCloud& cloud) const
+void boundary::content::putBack(particleCloud& cloud)
 {
-    label n = 0;
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
     {
         vector x = cloud.x[i].xyz(), u = cloud.Up[i].xyz();
-        const structureImage* back = group.wayBack(x);
-        if (!back) continue;
-        for (int k = 0; back && k < 8; ++k)
-            x = (*back)(x), u = back->R * u, back = group.wayBack(x);
-        cloud.x[i].setXyz(x), cloud.Up[i].setXyz(u), ++n;
+        imageGroup::wayHome back = group.wayBack(x);
+        if (!back.map) continue;
+        for (int k = 0; back.map && k < 8; ++k)
+        {
+            const structureImage& map = *back.map;
+            x = map(x), u = map.R * u, cloud.Up[i][3] += group.pressureOffset(map);
+            for (patchBalance& b : balance)
+                if (back.reflects && b.name == *back.patch) ++b.pushed;
+            back = group.wayBack(x);
+        }
+        cloud.x[i].setXyz(x), cloud.Up[i].setXyz(u);
     }
-    return n;
 }
 
 label boundary::exchange(particleCloud& cloud, scalar t1)
@@ -155,6 +247,7 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
     cloud.clearGhosts();
     c.guard.rememberWalls(c.walls);
     const List<scalar> swept = c.walls.moveTo(t1);
+    const scalar dt = t1 - c.t0;
     label pushed = 0;
     if (!c.walls.empty())
     {
@@ -162,7 +255,8 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
         for (const wall& w : c.walls.walls())
         {
             const size_t k = size_t(&w - c.walls.walls().data());
-            c.balance[w.index].swept += swept[k], c.balance[w.index].pushed += perWall[k];
+            patchBalance& b = c.balance[w.index];
+            b.swept += swept[k], b.pushed += perWall[k], b.flux = -swept[k] / dt;
             pushed += perWall[k];
         }
     }
@@ -175,6 +269,7 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
         patchBalance& b = c.balance[c.openIndex[k]];
         const openFace::change change = c.openFaces[k].exchange(cloud, movingWall);
         b.created += change.created, b.deleted += change.deleted;
+        b.flux = c.openFaces[k].flux(), b.volume += b.flux * dt;
     }
     // rounding errors of surfaces would grow: nothing else keeps a flat case flat
     for (label i = cloud.nSolid(); cloud.nDims == 2 && i < cloud.n(); ++i)
@@ -220,23 +315,33 @@ List<word> boundary::movingWalls() const
 {
     List<word> names;
     for (const wall& w : content_->walls.walls())
-        if (w.motion.moves() || !w.motion.slide().isZero(0)) names.push_back(w.name);
+        if (w.motion.moves() || w.motion.slides()) names.push_back(w.name);
     return names;
 }
 
-vector boundary::wallVelocity(const word& name, const vector&) const
+vector boundary::wallVelocity(const word& name, const vector& x) const
 {
-    return content_->walls.named(name).velocity;
+    return content_->walls.named(name).velocity.at(x);
 }
 
-scalar boundary::maxWallSpeed() const
+scalar boundary::maxGivenSpeed() const
 {
-    return content_->walls.maxSpeed();
+    scalar most = content_->walls.maxSpeed();
+    for (const openFace& face : content_->openFaces) most = std::max(most, face.givenSpeed());
+    return most;
 }
 
 sweptRates boundary::swept(const particleCloud& cloud) const
 {
-    return content_->wetted.rates(content_->walls, cloud);
+    sweptRates r = content_->wetted.rates(content_->walls, cloud);
+    for (const openFace& face : content_->openFaces)
+    {
+        if (!face.givesVelocity()) continue;
+        const List<scalar> q = face.givenFlux(cloud);
+        for (size_t z = 0; z < q.size(); ++z)
+            r.net[z] += q[z], r.gross[z] += std::abs(q[z]), r.faces[z] += std::abs(q[z]);
+    }
+    return r;
 }
 
 bool boundary::inside(const vector& x) const
@@ -261,6 +366,33 @@ bool boundary::reachesBeyondOpen(label i, scalar reach) const
 const List<patchBalance>& boundary::balance() const
 {
     return content_->balance;
+}
+
+void boundary::printBalance(const particleCloud& cloud) const
+{
+    const List<patchBalance>& patches = content_->balance;
+    const auto passes = [&](const patchBalance& b) {
+        for (const wall& w : content_->walls.walls())
+            if (w.name == b.name) return w.motion.moves();
+        for (const openFace& face : content_->openFaces)
+            if (face.name() == b.name) return true;
+        return false;
+    };
+    word fluxes;
+    scalar sum = 0;
+    label created = 0, deleted = 0, pushed = 0;
+    for (const patchBalance& b : patches)
+    {
+        created += b.created, deleted += b.deleted, pushed += b.pushed;
+        if (!passes(b)) continue;
+        fluxes += (fluxes.empty() ? "" : ", ") + b.name + " " + str(b.flux), sum += b.flux;
+    }
+    if (!fluxes.empty())
+        info() << "patch flux [m" << cloud.nDims << "/s, out]: " << fluxes << ", sum " << str(sum)
+               << "\n";
+    if (created + deleted + pushed > 0 || hasOpen())
+        info() << "particles: " << cloud.n() << "; so far created " << created << ", deleted "
+               << deleted << ", put back " << pushed << "\n";
 }
 
 void boundary::restoreBalance(const List<patchBalance>& balance)

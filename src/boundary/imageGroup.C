@@ -53,13 +53,29 @@ void imageGroup::addSymmetryPlane(const word& patch, const vector& point, const 
     sides_.push_back({patch, point, n, mirror, mirror, false});
 }
 
-void imageGroup::addCyclic(const word& patch, const vector& point, const vector& separation)
+void imageGroup::addCyclic(const word& patch, const vector& point, const vector& separation,
+                           std::shared_ptr<Function1> drop)
 {
+    if (drop) drops_.push_back({separation, std::move(drop), 0});
     const vector n = separation.normalized();
     const structureImage up = {tensor::Identity(), separation};
     const structureImage down = {tensor::Identity(), -separation};
     sides_.push_back({patch, point, -n, down, up, true});
     sides_.push_back({patch, point + separation, n, up, down, true});
+}
+
+void imageGroup::setTime(scalar t)
+{
+    for (pressureDrop& d : drops_) d.now = d.function->value(t);
+}
+
+// All other sides are at right angles to a pair's separation: so many times it has been gone
+scalar imageGroup::pressureOffset(const structureImage& map) const
+{
+    scalar offset = 0;
+    for (const pressureDrop& d : drops_)
+        offset -= std::round(map.t.dot(d.separation) / d.separation.squaredNorm()) * d.now;
+    return offset;
 }
 
 List<std::pair<vector, vector>> imageGroup::symmetryPlanes() const
@@ -84,11 +100,11 @@ scalar imageGroup::beyond(const vector& x) const
     return most;
 }
 
-const structureImage* imageGroup::wayBack(const vector& x) const
+imageGroup::wayHome imageGroup::wayBack(const vector& x) const
 {
     for (const side& s : sides_)
-        if ((x - s.point).dot(s.normal) > 0) return &s.back;
-    return nullptr;
+        if ((x - s.point).dot(s.normal) > 0) return {&s.back, &s.patch, !s.cyclic};
+    return {};
 }
 
 // Only chambers that are images of one another may tile space: reflections generate a finite set
@@ -250,18 +266,19 @@ struct imageMaker
 {
     particleCloud& cloud;
     const structureImage& map;
+    scalar p;  // pressure offset
     label ownRule;
     std::map<label, label> productRule;
 
-    imageMaker(particleCloud& c, const structureImage& m)
-        : cloud(c), map(m), ownRule(c.addRule(turn(m.R), m.R))
+    imageMaker(particleCloud& c, const structureImage& m, scalar offset)
+        : cloud(c), map(m), p(offset), ownRule(c.addRule(turn(m.R), m.R))
     {
     }
 
     void add(label e, const vector& at)
     {
-        if (e < cloud.n()) return cloud.addImage(e, ownRule, at, vec4{});
-        const vec4 b = turned(map.R, cloud.ghostOffset(e));
+        if (e < cloud.n()) return cloud.addImage(e, ownRule, at, vec4::from(vector(0, 0, 0), p));
+        vec4 b = turned(map.R, cloud.ghostOffset(e));
         if (cloud.ghostSource(e) < 0) return cloud.addRigid(at, b.xyz());
         const label rule = cloud.ruleIndex(e);
         if (!productRule.count(rule))
@@ -269,7 +286,9 @@ struct imageMaker
             const ghostRule inner = cloud.ruleOf(e);
             productRule[rule] = cloud.addRule(turn(map.R) * inner.M, map.R * inner.R);
         }
-        cloud.addImage(cloud.ghostSource(e), productRule[rule], at, b);
+        b[3] += p;
+        cloud.addMirror({cloud.ghostSource(e), productRule[rule]}, at, b,
+                        map.R * cloud.ghostThrough(e));
     }
 };
 
@@ -279,7 +298,7 @@ void imageGroup::addImages(particleCloud& cloud, List<vector>& facing) const
 {
     if (maps_.empty()) return;
     List<imageMaker> makers;
-    for (const structureImage& map : maps_) makers.emplace_back(cloud, map);
+    for (const structureImage& map : maps_) makers.emplace_back(cloud, map, pressureOffset(map));
     const label n = cloud.nAll();
     List<vector> taken;
     for (label e = 0; e < n; ++e)

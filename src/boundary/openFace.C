@@ -7,33 +7,52 @@
 namespace ispf
 {
 
-openFace::openFace(const word& name, const dictionary& dict, const word& caseFolder,
-                   const imageGroup& group, scalar dx, label stripLayers)
+openFace::openFace(const word& name, const dictionary& dict, const word& caseFolder, setting s)
     : name_(name),
       where_(dict.where("type")),
-      dx_(dx),
-      near_(2.5 * dx),
-      region_(6 * dx),
-      depth_(stripLayers * dx),
-      p_(Function1::New("p", dict, caseFolder, dims::pressure)),
-      backflow_(dict.getInRangeOrDefault("backflow", 0, 1, 0.5)),
-      spotGrid_(1.5 * dx)
+      dx_(s.cloud.dx),
+      near_(2.5 * dx_),
+      region_(6 * dx_),
+      depth_(s.stripLayers * dx_),
+      mesh_(std::move(s.mesh)),
+      spotGrid_(1.5 * dx_)
 {
     const scalar near = std::max(depth_ + dx_, before * dx_),
                  far = std::max(near, openLayer::reach * dx_);
+    vector outward;
     if (dict.chooseOrDefault("surface", {"triSurface", "plane"}, "triSurface") == "plane")
     {
         const vector point = dict.get<vector>("point", dims::length),
                      normal = nonZero(dict, "normal");
         surface_ = patchSurface::plane(point, normal, near);
         deep_ = patchSurface::plane(point, normal, far);
+        outward = normal.normalized();
     }
     else
     {
         const triSurface mesh = readPatch(caseFolder, name, dict);
-        surface_ = patchSurface::triangles(mesh, group, near);
-        deep_ = patchSurface::triangles(mesh, group, far);
+        surface_ = patchSurface::triangles(mesh, s.group, near);
+        deep_ = patchSurface::triangles(mesh, s.group, far);
+        outward = mesh_.normal();
     }
+    if (inflow::given(dict))
+    {
+        dict.found("backflow");  // may stay when the pressure goes
+        const scalar images = s.group.symmetryFactor();
+        inflow_ = std::make_unique<inflow>(
+            dict, caseFolder,
+            inflow::place{mesh_, s.isHeld, images, outward,
+                          s.cloud.nDims == 3 ? dims::flowRate : dims::kinematicViscosity});
+        return;
+    }
+    p_ = Function1::New("p", dict, caseFolder, dims::pressure);
+    backflow_ = dict.getInRangeOrDefault("backflow", 0, 1, 0.5);
+}
+
+void openFace::setStep(scalar t0, scalar t1)
+{
+    if (p_) given_ = p_->value(t1);
+    else inflow_->setStep(t0, t1);
 }
 
 scalar openFace::weight(scalar q)

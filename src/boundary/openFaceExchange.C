@@ -77,7 +77,7 @@ openFace::census openFace::count(const particleCloud& cloud) const
         c.particles.add(cloud.x[i].xyz()), c.index.push_back(i);
         if (!cloud.isFluid(i)) continue;
         if (f.depth > 0) c.feet.add(f.foot);
-        else if (cloud.pFixed[i]) c.entered.add(f.foot), c.beyond.push_back(-f.depth);
+        else if (cloud.beyondOpen(i)) c.entered.add(f.foot), c.beyond.push_back(-f.depth);
     }
     return c;
 }
@@ -184,7 +184,8 @@ void openFace::insert(particleCloud& cloud, const census& c, const List<label>& 
         });
         if (at.depth > 0.9 * depth_)
             cloud.x[i].setXyz(at.x - std::min(lag(c, at), 0.5 * dx_) * at.normal);
-        cloud.Up[i][3] = given_, cloud.pFixed[i] = 1, cloud.pGiven[i] = given_;
+        if (inflow_) cloud.uFixed[i] = 1;
+        else cloud.Up[i][3] = given_, cloud.pFixed[i] = 1, cloud.pGiven[i] = given_;
     }
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace ispf
@@ -45,6 +46,7 @@ void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
     findFeet(cloud);
     List<scalar>& slope = cloud.scalars[slopeField];
     slope.resize(cloud.n(), 0);
+    if (inflow_) return setVelocity(cloud);
     parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
         for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
         {
@@ -57,6 +59,41 @@ void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
             cloud.pGiven[i] = given_ - backflow_ * rho * in * in + (rho * b + slope[i]) * f.depth;
         }
     });
+}
+
+void openFace::setVelocity(particleCloud& cloud) const
+{
+    const List<scalar>& slope = cloud.scalars.at(slopeField);
+    List<vec4>& gradient = cloud.vectors[givenGradient];
+    gradient.resize(cloud.n(), vec4{});
+    parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
+        for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
+        {
+            known_[i].u = cloud.Up[i].xyz();
+            const surfaceFoot& f = known_[i].foot;
+            if (!f.found || f.depth <= 0) continue;
+            cloud.uFixed[i] = 1, cloud.Up[i].setXyz(inflow_->velocity(f.foot, f.normal));
+            gradient[i] = vec4::from(slope[i] * f.normal);
+        }
+    });
+    flux_ = 0;
+    for (const scalar q : givenFlux(cloud)) flux_ -= q;
+}
+
+List<scalar> openFace::givenFlux(const particleCloud& cloud) const
+{
+    List<scalar> perZone(cloud.zones.size(), 0);
+    scalar all = 0;
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (const surfaceFoot& f = known_[i].foot; f.found && f.depth > 0)
+        {
+            const scalar q = -cloud.volume() / depth_ * cloud.Up[i].xyz().dot(f.normal);
+            perZone[cloud.zone[i]] += q, all += q;
+        }
+    // what the strip's particles, as many as they happen to be, carry together is known
+    for (scalar& q : perZone)
+        if (!mesh_.empty() && all != 0) q *= inflow_->mean() * mesh_.area() / all;
+    return perZone;
 }
 
 // The velocity close before the surface, by feet on it: a mean, and the mean of what it missed (twicing, Tukey
@@ -117,12 +154,13 @@ struct openFace::slopeBefore
     };
 
     scalar radius, rho;
+    bool accelerates;
     List<bin> bins;
     pointGrid feet;
 
     slopeBefore(const openFace& face, const particleCloud& cloud, const List<vec4>& friction,
                 scalar density, scalar dt)
-        : radius(around * face.dx_), rho(density), feet(radius)
+        : radius(around * face.dx_), rho(density), accelerates(!face.inflow_), feet(radius)
     {
         const scalar dx = face.dx_;
         std::map<std::array<int, 4>, bin> squares;
@@ -142,7 +180,8 @@ struct openFace::slopeBefore
         for (auto& [cell, b] : squares) feet.add(b.foot / b.n), bins.push_back(b);
     }
 
-    // -rho a_n + friction_n
+    // friction_n - rho a_n.  Where the velocity is given the pressure has to learn of the acceleration from it: friction
+    // alone, or the strip would run after the fluid before it
     scalar at(const surfaceFoot& f, std::uint8_t zone) const
     {
         weightedMean<sums> sum;
@@ -155,17 +194,39 @@ struct openFace::slopeBefore
         const auto mean = [&](int k) {
             return m[k] > 0 ? m.segment<3>(k + 1).dot(f.normal) / m[k] : 0;
         };
-        return mean(4) - rho * mean(0);
+        return accelerates ? mean(4) - rho * mean(0) : mean(4);
     }
 };
 
-// The strip takes the velocity before the surface, averaged over 1.5 dx along it.  Over a wider reach the flow along the surface
+scalar openFace::fluxOf(const particleCloud& cloud, const velocityBefore& velocity) const
+{
+    constexpr std::uint8_t any = 255;  // no zone has this number
+    scalar flux = 0;
+    if (mesh_.empty())  // what the strip carries
+    {
+        for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+            if (const surfaceFoot& f = known_[i].foot; f.found && f.depth > 0)
+                flux += cloud.volume() / depth_ * cloud.Up[i].xyz().dot(f.normal);
+        return flux;
+    }
+    const triSurface& s = mesh_.surface();
+    for (label t = 0; t < s.size(); ++t)
+    {
+        vector u = vector::Zero();
+        velocity.mean(s.centre(t), any, u);
+        flux += mesh_.area(t) * u.dot(s.normal(t));
+    }
+    return flux;
+}
+
+// The slope of the pressure is carried on, and, where that is given, the strip takes the velocity before the surface, averaged over 1.5 dx along it.  Over a wider reach the flow along the surface
 // would run into a wall or away from it: nothing in the strip holds it back
 void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, scalar rho,
                             scalar dt) const
 {
     findFeet(cloud);
-    const velocityBefore velocity(*this, cloud);
+    std::optional<velocityBefore> velocity;
+    if (!inflow_) velocity.emplace(*this, cloud), flux_ = fluxOf(cloud, *velocity);
     const slopeBefore slope(*this, cloud, friction, rho, dt);
     List<scalar>& carried = cloud.scalars.at(slopeField);
     parallelFor(
@@ -176,9 +237,9 @@ void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, sc
                 const surfaceFoot& f = known_[i].foot;
                 if (!f.found || f.depth < -dx_) continue;
                 carried[i] = slope.at(f, cloud.zone[i]);
-                if (f.depth <= 0) continue;
+                if (f.depth <= 0 || !velocity) continue;
                 vector u = cloud.Up[i].xyz();
-                velocity.mean(f.foot, cloud.zone[i], u);
+                velocity->mean(f.foot, cloud.zone[i], u);
                 cloud.Up[i].setXyz(u);
             }
         },

@@ -215,4 +215,13 @@ scalar planeLattice::area(const wall& w, const List<wall>& walls) const
     return area;
 }
 
+triSurface planeLattice::rectangle(const vector& point, const vector& normal,
+                                   const List<wall>& walls) const
+{
+    const frame f = frameOf(normal, walls);
+    for (int d = 1; d < nDims_; ++d)
+        if (!f.a[d].lowBound || !f.a[d].highBound) return {};
+    return rectangle(point, normal, walls, covered_);
+}
+
 }  // namespace ispf

@@ -4,66 +4,62 @@
 namespace ispf
 {
 
-wallMotion::wallMotion(const dictionary& patch, const word& caseFolder)
+namespace
 {
-    slide_ = patch.getOrDefault<vector>("velocity", vector::Zero(), dims::velocity);
-    const dictionary* motion = patch.findDict("motion");
-    if (!motion) return;
-    moves_ = true;
-    const bool steady = motion->found("velocity");
-    if (steady == motion->found("displacement"))
-        motion->fail(steady ? "velocity" : "displacement",
-                     "motion wants either 'direction' and 'displacement', or 'velocity'");
-    direction_ = steady ? motion->get<vector>("velocity", dims::velocity)
-                        : nonZero(*motion, "direction").normalized();
-    if (steady) return;
-    displacement_ = Function1::New("displacement", *motion, caseFolder, dims::length);
+
+wallRepresentation representationOf(const dictionary& dict, bool slip)
+{
+    const word kind = dict.chooseOrDefault("representation", {"particles", "mirror"},
+                                           slip ? "mirror" : "particles");
+    if (slip && kind == "particles")
+        dict.fail("representation",
+                  "rigid particles hold the fluid that passes them: a wall with 'slip yes' is a "
+                  "mirror. Leave representation away");
+    return kind == "mirror" ? wallRepresentation::mirror : wallRepresentation::particles;
 }
 
-vector wallMotion::offset(scalar t) const
-{
-    if (!moves_) return vector::Zero();
-    return (displacement_ ? displacement_->value(t) : t) * direction_;
-}
-
-vector wallMotion::velocity(scalar t0, scalar t1) const
-{
-    if (!moves_) return slide_;
-    return slide_ + (displacement_ ? displacement_->rate(t0, t1) : 1) * direction_;
-}
+}  // namespace
 
 wall wall::New(const word& name, const dictionary& dict, const word& caseFolder)
 {
     wall w;
     w.name = name;
-    const word kind = dict.chooseOrDefault("representation", {"particles", "mirror"}, "particles");
-    w.representation =
-        kind == "mirror" ? wallRepresentation::mirror : wallRepresentation::particles;
+    w.slip = dict.getOrDefault("slip", false);
+    w.representation = representationOf(dict, w.slip);
     w.plane = dict.chooseOrDefault("surface", {"triSurface", "plane"}, "triSurface") == "plane";
     w.motion = wallMotion(dict, caseFolder);
     w.twoSided = dict.getOrDefault("twoSided", false);
+    w.clamps = dict.getOrDefault<List<word>>("clamps", {});
+    if (!w.clamps.empty()) w.clampDepth = dict.getInRangeOrDefault("clampDepth", 0.1, 100, 1);
+    if (w.slip && w.motion.slides())
+        dict.fail("slip",
+                  "a wall that slides in itself drags nothing along with 'slip yes': leave "
+                  "'velocity' and 'rotation' away, or slip");
     if (!w.plane) return w;
     if (w.twoSided)
         dict.fail("twoSided",
                   "a plane has no end and fluid on one side only; use surface triSurface");
     w.point = dict.get<vector>("point", dims::length),
     w.normal = nonZero(dict, "normal").normalized();
-    if (std::abs(w.motion.slide().dot(w.normal)) > 1e-9 * w.motion.slide().norm())
-        dict.fail("velocity",
-                  "velocity must lie in the plane, as the surface stays where it is. "
-                  "Let the wall itself move with motion { velocity ...; }");
+    if (!w.motion.slidesWithin(w.normal))
+        dict.fail(dict.found("velocity") ? "velocity" : "rotation",
+                  "velocity must lie in the plane, and the axis of a rotation along its normal, as "
+                  "the surface stays where it is. Let the wall itself move with motion { ... }");
+    if (w.motion.turns())
+        dict.subDict("motion").fail(
+            "rotation", "a plane has no end and cannot turn out of itself; use surface triSurface");
     return w;
 }
 
 void wall::setStep(scalar t0, scalar t1)
 {
     moveTo(t0);
-    velocity = motion.velocity(t0, t1);
+    surfaceVelocity = motion.surfaceVelocity(t0, t1), velocity = motion.velocity(t0, t1);
 }
 
 void wall::moveTo(scalar t)
 {
-    offset = motion.offset(t), standsAt = t;
+    frame = motion.frame(t), standsAt = t;
 }
 
 }  // namespace ispf

@@ -74,17 +74,17 @@ List<label> wallGuard::apply(particleCloud& cloud, const wallSet& walls) const
                 for (size_t b = 0; b < walls.bodies().size(); ++b)
                 {
                     const wallSet::body& body = walls.bodies()[b];
-                    const vector offset = walls.offset(body);
-                    vector y = x - offset;
-                    const vector before = hasSeen && pass == 0 ? vector(seen - seenOffsets_[b]) : y;
+                    const bodyFrame& frame = walls.frame(body);
+                    vector y = frame.toBody(x);
+                    const vector before = hasSeen && pass == 0 ? seenFrames_[b].toBody(seen) : y;
                     const label patch =
-                        pusher{*body.surface, cloud.dx}.push(y, before, cloud.pFixed[i]);
+                        pusher{*body.surface, cloud.dx}.push(y, before, cloud.beyondOpen(i));
                     if (patch < 0) continue;
-                    x = y + offset, again = true;
+                    x = frame.toSpace(y), again = true;
                     if (hit[k] < 0) hit[k] = body.walls[patch];
                 }
             }
-            if (hit[k] >= 0) putBack(cloud, i, x, walls.walls()[hit[k]].velocity);
+            if (hit[k] >= 0) putBack(cloud, i, x, walls.walls()[hit[k]].velocity.at(x));
         }
     });
     List<label> pushed(walls.walls().size(), 0);
@@ -100,8 +100,8 @@ void wallGuard::remember(particleCloud& cloud) const
 
 void wallGuard::rememberWalls(const wallSet& walls)
 {
-    seenOffsets_.clear();
-    for (const wallSet::body& b : walls.bodies()) seenOffsets_.push_back(walls.offset(b));
+    seenFrames_.clear();
+    for (const wallSet::body& b : walls.bodies()) seenFrames_.push_back(walls.frame(b));
 }
 
 }  // namespace ispf

@@ -101,16 +101,18 @@ List<wallMirror::foot> wallMirror::feet(const particleCloud& cloud, const wallSe
     {
         const wallSet::body& body = walls.bodies()[parts_[p].body];
         const patchSurface& surface = parts_[p].own ? *parts_[p].own : *body.surface;
-        const vector x = cloud.x[i].xyz() - walls.offset(body);
+        const bodyFrame& frame = walls.frame(body);
+        const vector x = frame.toBody(cloud.x[i].xyz());
         if (surface.surelyFar(x)) continue;
         const surfaceFoot f = surface.find(x);
-        const bool beside = f.aside > 0 && !cloud.pFixed[i];
+        const bool beside = f.aside > 0 && !cloud.beyondOpen(i);
         if (!f.found || f.depth >= 0 || f.depth < -support_) continue;
         // past a rim fluid is seen, or the image of what lies beside it, never both: on a sheet only,
         // as through the edge of a thick wall fluid sees fluid
         if (beside && !(body.twoSided && f.aside < support_)) continue;
-        found.push_back(
-            {p, f.normal, walls.walls()[body.walls[f.patch]].velocity, -f.depth, beside});
+        const wall& w = walls.walls()[body.walls[f.patch]];
+        found.push_back({p, frame.turn(f.normal), w.velocity.at(frame.toSpace(f.foot)), -f.depth,
+                         beside, w.slip});
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const foot& a, const foot& b) { return a.distance < b.distance; });
@@ -150,41 +152,64 @@ private:
 
     void addImage(label i, const List<foot>& members)
     {
-        wayToPlanes way;
+        wayToPlanes way, through;
         vector direction = vector::Zero(), velocity = vector::Zero();
         bool rigid = true;
         for (const foot& f : members)
         {
             way.add(f.normal, f.distance);
+            through.add(f.normal, f.normal.dot(f.wallVelocity));
             direction += f.normal, velocity += f.wallVelocity / scalar(members.size());
             rigid = rigid && mirror_.parts_[f.part].rigid;
         }
         if (way.s.norm() > mirror_.support_) return;
         const vector at = cloud_.x[i].xyz() + 2 * way.s;
-        const scalar sign = members.size() % 2 ? -1 : 1;
         if (rigid) cloud_.addRigid(at, velocity);
         else
-            cloud_.addImage(i, ruleFor(members, way.P, sign), at,
-                            vec4::from((1 - sign) * velocity));
-        facing_.push_back(cloud_.pFixed[i] ? vector(vector::Zero()) : direction.normalized());
+        {
+            const tensor A = velocityMap(members);
+            const label rule = ruleFor(members, way.P, A);
+            cloud_.addMirror({i, rule}, at, vec4::from(velocity - A * velocity), 2 * through.s);
+        }
+        facing_.push_back(cloud_.beyondOpen(i) ? vector(vector::Zero()) : direction.normalized());
+    }
+
+    // Each wall turns the velocity round, relative to its own; one with slip its normal part only
+    tensor velocityMap(const List<foot>& members) const
+    {
+        wayToPlanes slip;
+        scalar sign = 1;
+        for (const foot& f : members)
+            if (f.slip) slip.add(f.normal, 0);
+            else sign = -sign;
+        return sign * (tensor::Identity() - 2 * slip.P);
     }
 
     // One rule serves a whole flat part
-    label ruleFor(const List<foot>& members, const tensor& P, scalar sign)
+    label ruleFor(const List<foot>& members, const tensor& P, const tensor& A)
     {
         List<label> parts;
         for (const foot& f : members) parts.push_back(f.part);
-        auto& [known, rule] = last_.try_emplace(parts, tensor::Zero(), -1).first->second;
-        if ((known - P).cwiseAbs().maxCoeff() < 1e-9) return rule;
-        const Eigen::Matrix4d M = Eigen::Vector4d(sign, sign, sign, 1).asDiagonal();
-        known = P, rule = cloud_.addRule(M, tensor::Identity() - 2 * P);
-        return rule;
+        const auto close = [](const tensor& a, const tensor& b) {
+            return (a - b).cwiseAbs().maxCoeff() < 1e-9;
+        };
+        known& last = last_[parts];
+        if (last.rule >= 0 && close(last.P, P) && close(last.A, A)) return last.rule;
+        Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
+        M.topLeftCorner<3, 3>() = A;
+        last = {P, A, cloud_.addRule(M, tensor::Identity() - 2 * P)};
+        return last.rule;
     }
 
     const wallMirror& mirror_;
     particleCloud& cloud_;
     List<vector>& facing_;
-    std::map<List<label>, std::pair<tensor, label>> last_;
+    struct known
+    {
+        tensor P, A;
+        label rule = -1;
+    };
+    std::map<List<label>, known> last_;
 };
 
 void wallMirror::addImages(particleCloud& cloud, const wallSet& walls, List<vector>& facing) const

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ispf
 {
@@ -14,9 +15,13 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
     support_ = support, nDims_ = cloud.nDims;
     for (const wall& w : walls_)
         if (nDims_ == 2 && !w.motion.inPlane())
-            patches.subDict(w.name).fail(w.motion.moves() ? "motion" : "velocity",
+            patches.subDict(w.name).fail(patches.subDict(w.name).found("motion")     ? "motion"
+                                         : patches.subDict(w.name).found("velocity") ? "velocity"
+                                                                                     : "rotation",
                                          "The case is two-dimensional, in x and y: patch " +
-                                             w.name + " must not move along z");
+                                             w.name +
+                                             " must not move along z nor turn about another axis");
+    lattice_.set(group, cloud, support);
     if (empty()) return;
     makeBodies(caseFolder, patches, group, support + cloud.dx);
     for (wall& w : walls_) w.moveTo(t0);
@@ -26,7 +31,6 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
     // what lies beyond symmetry planes and cyclic sides comes again as an image
     for (wall& w : walls_)
         std::erase_if(w.rigid, [&](const vector& x) { return group.beyond(x) > 1e-6 * cloud.dx; });
-    lattice_.set(group, cloud, support);
     lattice_.cover(cloud, walls_);
 }
 
@@ -64,7 +68,7 @@ void wallSet::checkSides(const dictionary& patches, const particleCloud& cloud) 
     for (const body& b : bodies_)
         for (label i = 0; i < cloud.n(); ++i)
         {
-            const vector x = cloud.x[i].xyz() - offset(b);
+            const vector x = frame(b).toBody(cloud.x[i].xyz());
             if (b.surface->surelyFar(x)) continue;
             const surfaceFoot f = b.surface->find(x);
             if (!f.found || f.aside > 0) continue;
@@ -137,20 +141,25 @@ triSurface wallSet::surfaceOf(label w, const boundBox& region) const
                 const triSurface& all = *b.surface->mesh();
                 s = all.subset([&](label t) { return all.patch[t] == label(k); });
             }
-    for (vector& x : s.nodes) x += walls_[w].offset;
+    for (vector& x : s.nodes) x = walls_[w].frame.toSpace(x);
     return s;
 }
 
 List<scalar> wallSet::moveTo(scalar t)
 {
     List<scalar> swept(walls_.size(), 0);
-    List<vector> from;
-    for (wall& w : walls_) from.push_back(w.offset), w.moveTo(t);
+    List<bodyFrame> from;
+    for (wall& w : walls_) from.push_back(w.frame), w.moveTo(t);
     for (const body& b : bodies_)
         for (size_t k = 0; k < b.walls.size(); ++k)
         {
             const label w = b.walls[k];
-            const vector moved = walls_[w].offset - from[w];
+            if (walls_[w].motion.turns())
+            {
+                swept[w] = turnedVolume(b, from[w], walls_[w].frame);
+                continue;
+            }
+            const vector moved = walls_[w].frame.t - from[w].t;
             const vector area =
                 walls_[w].plane ? planeArea(walls_[w])
                                 : vector(perDepth(*b.surface) * b.surface->areaVector(label(k)));
@@ -159,10 +168,39 @@ List<scalar> wallSet::moveTo(scalar t)
     return swept;
 }
 
+// Each facet sweeps the way of its centre times the mean of its areas before and after: exact to the third order of
+// the angle
+scalar wallSet::turnedVolume(const body& b, const bodyFrame& from, const bodyFrame& to) const
+{
+    if (b.twoSided) return 0;
+    const triSurface& s = *b.surface->mesh();
+    scalar volume = 0;
+    for (label t = 0; t < s.size(); ++t)
+    {
+        const vector area = s.areaVector(t),
+                     way = to.toSpace(s.centre(t)) - from.toSpace(s.centre(t));
+        volume -= 0.5 * way.dot(from.turn(area) + to.turn(area));
+    }
+    return perDepth(*b.surface) * volume;
+}
+
 scalar wallSet::maxSpeed() const
 {
     scalar most = 0;
-    for (const wall& w : walls_) most = std::max(most, w.velocity.norm());
+    for (const body& b : bodies_)
+        for (const label k : b.walls)
+        {
+            const wall& w = walls_[k];
+            if (w.velocity.uniform)
+            {
+                most = std::max(most, w.velocity.u.norm());
+                continue;
+            }
+            // a plane has no end: its particles are where the fluid is
+            const List<vector>& points = w.plane ? w.rigid : b.surface->mesh()->nodes;
+            for (const vector& X : points)
+                most = std::max(most, w.velocity.at(w.frame.toSpace(X)).norm());
+        }
     return most;
 }
 
@@ -170,11 +208,37 @@ bool wallSet::clear(const vector& x, scalar distance) const
 {
     for (const body& b : bodies_)
     {
-        const surfaceFoot f = b.surface->find(x);
+        const surfaceFoot f = b.surface->find(frame(b).toBody(x));
         if (b.twoSided && f.aside > 0) continue;
         if (f.found && f.depth > -distance) return false;
     }
     return true;
+}
+
+scalar wallSet::distance(label w, const vector& X) const
+{
+    for (const body& b : bodies_)
+        if (const auto at = std::find(b.walls.begin(), b.walls.end(), w); at != b.walls.end())
+        {
+            const surfaceFoot f = b.surface->find(X);
+            if (f.found && f.patch == label(at - b.walls.begin()))
+                return std::hypot(f.depth, f.aside);
+        }
+    return std::numeric_limits<scalar>::infinity();
+}
+
+bool wallSet::holds(const vector& x) const
+{
+    const scalar near = 0.1 * support_;
+    bool slips = false;
+    for (const body& b : bodies_)
+    {
+        const surfaceFoot f = b.surface->find(frame(b).toBody(x));
+        if (!f.found || std::abs(f.depth) > near || f.aside > near) continue;
+        if (!walls_[b.walls[f.patch]].slip) return true;
+        slips = true;
+    }
+    return !slips;
 }
 
 bool wallSet::movingWithin(const vector& x, scalar distance) const
@@ -183,7 +247,7 @@ bool wallSet::movingWithin(const vector& x, scalar distance) const
     {
         const wall& w = b.carrier(*this);
         if (!w.motion.moves()) continue;
-        const vector y = x - w.offset;
+        const vector y = w.frame.toBody(x);
         const scalar off =
             w.plane ? std::abs((y - w.point).dot(w.normal)) : std::sqrt(b.bounds.distSqr(y));
         if (off < distance) return true;
@@ -195,7 +259,7 @@ bool wallSet::inside(const vector& x) const
 {
     for (const body& b : bodies_)
     {
-        const surfaceFoot f = b.surface->find(x - offset(b));
+        const surfaceFoot f = b.surface->find(frame(b).toBody(x));
         if (f.found && f.aside == 0 && f.depth > 0) return false;
     }
     return true;
@@ -256,7 +320,8 @@ void wallSet::addRigid(particleCloud& cloud) const
     const occupancy cells(cloud, support_);
     for (const wall& w : walls_)
         for (const vector& x : w.rigid)
-            if (cells.near(x + w.offset)) cloud.addRigid(x + w.offset, w.velocity);
+            if (const vector at = w.frame.toSpace(x); cells.near(at))
+                cloud.addRigid(at, w.velocity.at(at));
 }
 
 }  // namespace ispf

@@ -41,18 +41,18 @@ struct wallView
     };
     const particleCloud& cloud;
     const patchSurface& surface;
-    vector offset;
+    bodyFrame frame;  // copied: walls move on while pairs are still asked
     scalar margin;
     List<label> slot;  // -1: far
     List<place> places;
 
-    wallView(const particleCloud& c, const patchSurface& s, const vector& o, scalar m,
+    wallView(const particleCloud& c, const patchSurface& s, const bodyFrame& at, scalar m,
              const List<vector>& facing)
-        : cloud(c), surface(s), offset(o), margin(m), slot(c.nAll(), -1)
+        : cloud(c), surface(s), frame(at), margin(m), slot(c.nAll(), -1)
     {
         List<label> near;
         for (label i = 0; i < c.nAll(); ++i)
-            if (c.phase[i] == phaseType::fluid && !s.surelyFar(c.x[i].xyz() - o) &&
+            if (c.phase[i] == phaseType::fluid && !s.surelyFar(at.toBody(c.x[i].xyz())) &&
                 (i < c.n() || facing[i - c.n()].isZero(0)))
                 slot[i] = label(near.size()), near.push_back(i);
         places.resize(near.size());
@@ -61,7 +61,7 @@ struct wallView
             [&](label begin, label end) {
                 for (label k = begin; k < end; ++k)
                 {
-                    const surfaceFoot f = s.find(c.x[near[k]].xyz() - o);
+                    const surfaceFoot f = s.find(frame.toBody(c.x[near[k]].xyz()));
                     places[k] = {f.foot, f.normal};
                     if (!f.found) slot[near[k]] = -1;
                 }
@@ -79,7 +79,7 @@ struct wallView
     {
         const label a = slot[i], b = slot[j];
         if (a < 0 || b < 0) return false;
-        const vector xi = cloud.x[i].xyz() - offset, xj = cloud.x[j].xyz() - offset;
+        const vector xi = frame.toBody(cloud.x[i].xyz()), xj = frame.toBody(cloud.x[j].xyz());
         return behind(a, xj) && behind(b, xi) && surface.crosses(xi, xj);
     }
 };
@@ -95,17 +95,17 @@ struct imageView
     bool sees(label i, label g) const
     {
         const vector& direction = facing[g - cloud.n()];
-        if (direction.isZero(0) || cloud.pFixed[i]) return true;
+        if (direction.isZero(0) || cloud.beyondOpen(i)) return true;
         const vector a = cloud.x[i].xyz(), b = cloud.x[g].xyz();
         scalar nearest = std::numeric_limits<scalar>::max();
         bool same = false;
         for (const wallSet::body& body : walls.bodies())
         {
-            const vector offset = walls.offset(body);
-            const surfaceFoot f = body.surface->firstCrossing(a - offset, b - offset);
+            const bodyFrame& frame = walls.frame(body);
+            const surfaceFoot f = body.surface->firstCrossing(frame.toBody(a), frame.toBody(b));
             if (!f.found) continue;
-            const scalar way = (f.foot + offset - a).squaredNorm();
-            if (way < nearest) nearest = way, same = f.normal.dot(direction) > aligned;
+            const scalar way = (frame.toSpace(f.foot) - a).squaredNorm();
+            if (way < nearest) nearest = way, same = frame.turn(f.normal).dot(direction) > aligned;
         }
         return same;
     }
@@ -145,7 +145,7 @@ neighbourList::visibility wallVisibility::test(const particleCloud& cloud, const
     if (parts_.empty() && !images) return nullptr;
     const auto views = std::make_shared<List<wallView>>();
     for (const thinPart& p : parts_)
-        views->emplace_back(cloud, *p.surface, walls.offset(walls.bodies()[p.body]), margin_,
+        views->emplace_back(cloud, *p.surface, walls.frame(walls.bodies()[p.body]), margin_,
                             facing);
     const imageView seen{cloud, walls, facing};
     return [views, seen](label i, label j) {

@@ -22,7 +22,7 @@ label zoneBefore(const wall& w, const particleCloud& cloud)
     label zone = -1;
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
     {
-        const scalar before = (w.point + w.offset - cloud.x[i].xyz()).dot(w.normal);
+        const scalar before = (w.frame.toSpace(w.point) - cloud.x[i].xyz()).dot(w.normal);
         if (before >= 0 && before < nearest) nearest = before, zone = cloud.zone[i];
     }
     return zone;
@@ -59,17 +59,14 @@ void wettedArea::find(const wallSet& walls, const imageGroup& group, const parti
 sweptRates wettedArea::rates(const wallSet& walls, const particleCloud& cloud) const
 {
     sweptRates r;
-    r.net.assign(cloud.zones.size(), 0), r.gross = r.net;
+    r.net.assign(cloud.zones.size(), 0), r.gross = r.faces = r.net;
     const auto add = [&](label zone, scalar rate) {
         r.net[zone] += rate, r.gross[zone] += std::abs(rate);
-    };
-    const auto motion = [&](label w) -> vector {
-        return walls.walls()[w].velocity - walls.walls()[w].motion.slide();
     };
     for (const label index : planes_)
     {
         const wall& w = walls.walls()[index];
-        const scalar across = motion(index).dot(w.normal);
+        const scalar across = w.surfaceVelocity.u.dot(w.normal);
         const label zone = across == 0 ? -1 : zoneBefore(w, cloud);
         const scalar area = walls.planeArea(w).norm();
         if (zone >= 0)
@@ -79,7 +76,7 @@ sweptRates wettedArea::rates(const wallSet& walls, const particleCloud& cloud) c
 
     const scalar dx = cloud.dx;
     boundBox near;
-    for (const part& p : parts_) near.add(p.centre + walls.walls()[p.wall].offset);
+    for (const part& p : parts_) near.add(walls.walls()[p.wall].frame.toSpace(p.centre));
     pointGrid fluid(sight * dx);
     List<label> index;
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
@@ -87,9 +84,11 @@ sweptRates wettedArea::rates(const wallSet& walls, const particleCloud& cloud) c
             fluid.add(x), index.push_back(i);
     for (const part& p : parts_)
     {
-        const scalar rate = -motion(p.wall).dot(p.area);
+        const wall& w = walls.walls()[p.wall];
+        const vector centre = w.frame.toSpace(p.centre);
+        const scalar rate = -w.surfaceVelocity.at(centre).dot(w.frame.turn(p.area));
         if (rate == 0) continue;
-        const vector at = p.centre + walls.walls()[p.wall].offset - ahead * dx * p.normal;
+        const vector at = centre - ahead * dx * w.frame.turn(p.normal);
         if (const label k = fluid.nearestIndex(at, sight * dx); k >= 0)
             add(cloud.zone[index[k]], rate);
     }

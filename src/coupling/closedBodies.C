@@ -2,6 +2,7 @@
 #include "closedBodies.H"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace ispf
@@ -125,6 +126,25 @@ List<char> drainedFluid(const particleCloud& cloud, const neighbourList& list,
             reach(cloud.ownerOf(list.index[k]));
     }
     return drained;
+}
+
+void refusePush(const fsiCase& c, const sweptRates& pushed, const List<label>& zones)
+{
+    // facets of surfaces that move along may differ; the flux through an open face is known
+    constexpr scalar ofWalls = 0.05, ofFaces = 1e-3;
+    scalar net = 0, admissible = 0;
+    for (const label z : zones)
+    {
+        net += pushed.net[z];
+        admissible += ofWalls * (pushed.gross[z] - pushed.faces[z]) + ofFaces * pushed.faces[z];
+    }
+    if (!(std::abs(net) > admissible)) return;
+    throw fatalError(
+        "Time " + c.time.timeName() + " s: walls and open faces push " + str(net) +
+        (c.cloud.nDims == 2 ? " m^2/s" : " m^3/s") + " into zone " +
+        c.cloud.zones[zones.front()].name +
+        ", which has no other way out: an incompressible fluid cannot give way. Add an "
+        "open patch that gives the pressure or an elastic wall, or balance what is given");
 }
 
 }  // namespace ispf

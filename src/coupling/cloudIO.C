@@ -180,9 +180,7 @@ particleTable tableOf(const Time& time, const particleCloud& cloud, const bounda
             if (name != "x0") table.scalars[name + ":w"].push_back(values[i][3]);
         }
     table.extra = cloud.history;
-    for (const patchBalance& b : walls.balance())
-        table.extra[balanceOf + b.name] = {b.swept, scalar(b.created), scalar(b.deleted),
-                                           scalar(b.pushed)};
+    for (const patchBalance& b : walls.balance()) table.extra[balanceOf + b.name] = b.state();
     table.attributes = cloud.notes;
     table.setAttribute("nDims", cloud.nDims), table.setAttribute("dx", cloud.dx);
     table.setAttribute("time", time.value()), table.setAttribute("timeIndex", time.timeIndex());
@@ -219,10 +217,8 @@ void restoreBalance(const particleCloud& cloud, boundary& walls)
 {
     List<patchBalance> balance = walls.balance();
     for (patchBalance& b : balance)
-        if (const auto it = cloud.history.find(balanceOf + b.name);
-            it != cloud.history.end() && it->second.size() >= balanceSize)
-            b.swept = it->second[0], b.created = label(it->second[1]),
-            b.deleted = label(it->second[2]), b.pushed = label(it->second[3]);
+        if (const auto it = cloud.history.find(balanceOf + b.name); it != cloud.history.end())
+            b.restore(it->second);
     walls.restoreBalance(balance);
 }
 

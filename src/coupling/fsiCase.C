@@ -47,9 +47,10 @@ fsiCase::fsiCase(Time& t) : time(t)
 
 void fsiCase::readBoundary()
 {
-    walls = std::make_unique<boundary>(caseFolder(),
-                                       dictionary::fromFile(time.constantFile("boundary")), cloud,
-                                       kernel->support(), time.value());
+    const dictionary patches = dictionary::fromFile(time.constantFile("boundary"));
+    walls =
+        std::make_unique<boundary>(caseFolder(), patches, cloud, kernel->support(), time.value());
+    if (cloud.nSolid() > 0) walls->clampSolids(cloud, cloud.vectors.at("x0"), patches);
     restoreBalance(cloud, *walls);
 }
 

@@ -101,7 +101,7 @@ private:
 
 scalar monolithic::velocityScale() const
 {
-    return std::max(c_.cloud.maxSpeed(), c_.walls->maxWallSpeed());
+    return std::max(c_.cloud.maxSpeed(), c_.walls->maxGivenSpeed());
 }
 
 // What rounding leaves of a row: of the springs' positions and of the pressure gradient [m/s].  At rest
@@ -149,7 +149,7 @@ List<scalar> monolithic::guess(scalar dt) const
     {
         simd4 up = cloud.Up[i].s;
         if (has) up += ratio * (up - old->second[i].s);
-        for (int a = 0; a < 3; ++a) z[4 * i + a] = cloud.uFixed[i] ? 0 : up[a];
+        for (int a = 0; a < 3; ++a) z[4 * i + a] = cloud.uFixed[i] ? cloud.Up[i][a] : up[a];
         z[4 * i + 3] = cloud.pFixed[i] ? cloud.pGiven[i] : up[3];
     }
     return z;

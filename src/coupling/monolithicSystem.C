@@ -31,6 +31,16 @@ void monolithicSystem::setup(scalar dt, const volumeConstraint* volume, const so
     enclosed_.setup(rows_, surface);
 }
 
+// Ghosts whose pressure is not that of their source: over a cyclic pair with a drop
+List<std::pair<label, scalar>> monolithicSystem::pressureOffsets() const
+{
+    const particleCloud& cloud = c_.cloud;
+    List<std::pair<label, scalar>> offsets;
+    for (label g = cloud.n(); g < cloud.nAll(); ++g)
+        if (const scalar p = cloud.ghostOffset(g)[3]; p != 0) offsets.push_back({g, p});
+    return offsets;
+}
+
 void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce,
                                      const List<scalar>& q, List<scalar>& b) const
 {
@@ -40,10 +50,21 @@ void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce
     phi_.resize(cloud.nAll());
     for (label i = 0; i < cloud.n(); ++i) phi_[i].s = simd4{0, 0, 0, theta * cloud.Up[i][3]};
     cloud.fillGhosts(phi_, false);
+    const List<std::pair<label, scalar>> drops = pressureOffsets();
+    // C (p - theta p^n): an offset that stays is there at both times
+    for (const auto& [g, offset] : drops) phi_[g][3] += (theta - 2) * offset;
     rows_.firstPass(phi_, gp_, lap_, gs_);
     cloud.fillGradientGhosts(gs_);
+    for (const auto& [g, offset] : drops) gs_[g][3] += (theta - 1) * offset;
     rows_.secondPass(gs_, cp_);
 
+    List<vec4> drop;  // its G p
+    if (!drops.empty())
+    {
+        List<vec4> none(cloud.nAll());
+        cloud.fillGhosts(none, false);
+        rows_.pressureGradient(none, drop);
+    }
     b.resize(size());
     for (label i = 0; i < cloud.n(); ++i)
     {
@@ -51,8 +72,10 @@ void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce
         if (!c_.bodyForce.empty())
             m += mass * (c_.bodyForce[cloud.zone[i]] - hydrostatic_.acceleration());
         if (i < label(springForce.size())) m += springForce[i].xyz();
+        if (!drop.empty()) m -= cloud.volume() * drop[i].xyz();
         if (cloud.nDims == 2) m[2] = 0;
-        for (int a = 0; a < 3; ++a) b[4 * i + a] = cloud.uFixed[i] ? 0 : m[a] / diagonal_[i];
+        for (int a = 0; a < 3; ++a)
+            b[4 * i + a] = cloud.uFixed[i] ? cloud.Up[i][a] : m[a] / diagonal_[i];
         b[4 * i + 3] = cloud.pFixed[i] ? cloud.pGiven[i] : cloud.dx * (q[i] - gp_[i][3] - cp_[i]);
     }
     enclosed_.balance(b);

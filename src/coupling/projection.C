@@ -19,6 +19,7 @@
 #include "projectionStep.H"
 #include "stepReport.H"
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 
@@ -56,6 +57,7 @@ public:
 private:
     List<vec4> accelerations() const;
     List<scalar> sources() const;
+    void checkPushed(const List<label>& bodyOf) const;
     void solve(const stencil& s, scalar dt);
     void move(const List<vec4>& before, scalar dt);
 
@@ -109,13 +111,29 @@ void projection::move(const List<vec4>& before, scalar dt)
     });
 }
 
+// An elastic wall gives way, whatever is pushed
+void projection::checkPushed(const List<label>& bodyOf) const
+{
+    if (std::all_of(bodyOf.begin(), bodyOf.end(), [](label b) { return b < 0; })) return;
+    const sweptRates pushed = c_.walls->swept(c_.cloud);
+    for (label b = 0; b < label(bodyOf.size()); ++b)
+    {
+        List<label> zones;
+        for (label z = 0; z < label(bodyOf.size()); ++z)
+            if (bodyOf[z] == b) zones.push_back(z);
+        if (!zones.empty()) refusePush(c_, pushed, zones);
+    }
+}
+
 void projection::solve(const stencil& s, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
     List<scalar> q = sources();
     q.resize(cloud.n(), 0);
+    const List<label> closed = closedBodies(cloud, c_.list);
+    if (!c_.structure) checkPushed(closed);
     if (density_.on())
-        density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, closedBodies(cloud, c_.list)),
+        density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, closed),
                        [&](label i) { return c_.isCut(i); });
     step_.predict(cloud, s, accelerations(), dt);
     hydrostatic_.take(cloud);

@@ -62,7 +62,7 @@ couplingScheme::stepLimit projectionLimits::ruling(const List<vec4>& acceleratio
 {
     const scalar h = c_.kernel->h();
     c_.walls->setStep(c_.time.value(), c_.time.value() + c_.time.deltaT());
-    const scalar u = std::max(longest(c_.cloud.Up, c_.cloud.n()), c_.walls->maxWallSpeed());
+    const scalar u = std::max(longest(c_.cloud.Up, c_.cloud.n()), c_.walls->maxGivenSpeed());
     const scalar f = longest(acceleration, c_.cloud.n());
     couplingScheme::stepLimit limit{none, "none"};
     const auto atMost = [&](scalar dt, const char* rule) {

@@ -69,13 +69,44 @@ scalar projectionStep::floor(const particleCloud& cloud, scalar dt) const
     return 1e-9 * rho_ / dt * maxSpeed(cloud) / cloud.dx * std::sqrt(scalar(cloud.n()));
 }
 
+// What goes with a velocity that is prescribed is its value less what the pressure is going to do, like u* of all
+// other particles: else they part by the splitting error dt grad p/rho.  Returns the velocities before
+List<vec4> projectionStep::addGivenGradient(particleCloud& cloud, scalar dt) const
+{
+    const auto gradient = cloud.vectors.find(givenGradient);
+    if (gradient == cloud.vectors.end()) return {};
+    List<vec4> before(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (cloud.uFixed[i]) cloud.Up[i].s += dt / rho_ * gradient->second[i].s;
+    return before;
+}
+
+// Where the prescribed fluid ends its support is truncated: p goes on there with the gradient given, not level
+void projectionStep::endGivenGradient(const stencil& s, List<scalar>& f) const
+{
+    const List<vec4>& gradient = s.cloud.vectors.at(givenGradient);
+    for (label i = s.cloud.nSolid(); i < s.cloud.n(); ++i)
+    {
+        if (!s.cloud.uFixed[i]) continue;
+        vector sum = vector::Zero();
+        for (std::int64_t k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
+            if (const label j = s.list.index[k]; s.cloud.phase[j] != phaseType::rigid)
+                sum -= 2 * s.list.F[k] * (s.cloud.x[i].xyz() - s.cloud.x[j].xyz());
+        f[i] += sum.dot(gradient[i].xyz());
+    }
+}
+
 void projectionStep::project(particleCloud& cloud, const stencil& s, const List<scalar>& q,
                              scalar cellSize, scalar dt)
 {
     const label n = cloud.n();
+    const List<vec4> given = addGivenGradient(cloud, dt);
     cloud.fillContinuityGhosts(cloud.Up);
     List<scalar> f = sphc::div(s, cloud.Up, schemes_.divergence);
+    for (label i = 0; i < label(given.size()); ++i)
+        if (cloud.uFixed[i]) cloud.Up[i].setXyz(given[i].xyz());
     for (label i = 0; i < n; ++i) f[i] = -rho_ / dt * (f[i] - (q.empty() ? 0 : q[i]));
+    if (!given.empty()) endGivenGradient(s, f);
 
     sphm::laplacian(s, equation_);
     equation_.setSource(f);

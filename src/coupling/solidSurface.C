@@ -258,11 +258,13 @@ scalar solidSurface::flux(const List<vec4>& u, const List<tensor>& cofactor,
         for (label i = begin; i < end; ++i)
             for (const int s : {0, 1})
             {
-                // what is clamped rests up to its edge, whatever its neighbours' motion extrapolates to
-                if (part_[s][i].side < 0 || !zones[part_[s][i].side] || cloud_->uFixed[i]) continue;
+                if (part_[s][i].side < 0 || !zones[part_[s][i].side]) continue;
                 simd4 at = {};
-                for (label k = feet_[s].start[i]; k < feet_[s].start[i + 1]; ++k)
-                    at += feet_[s].weight[k] * u[feet_[s].source[k]].s;
+                // what is clamped moves as one up to its edge, whatever its neighbours' motion extrapolates to
+                if (cloud_->uFixed[i]) at = u[i].s;
+                else
+                    for (label k = feet_[s].start[i]; k < feet_[s].start[i + 1]; ++k)
+                        at += feet_[s].weight[k] * u[feet_[s].source[k]].s;
                 sum -= areaVector(s, i, cofactor).dot(vector(at[0], at[1], at[2]));
             }
         return sum;

@@ -83,7 +83,7 @@ void volumeLedger::update(scalar dt)
     // the source of the step now ending, then the next one: q = - r (V - V_target) / (V_fluid dt)
     label n = 0;
     for (label i = c_.cloud.nSolid(); i < c_.cloud.n(); ++i)
-        n += c_.cloud.zone[i] == zone_ && !c_.cloud.pFixed[i];
+        n += c_.cloud.zone[i] == zone_ && !c_.cloud.beyondOpen(i);
     const scalar fluid = n * c_.cloud.volume() * c_.walls->symmetryFactor();
     controlled_ += source_ * fluid * dt;
     if (std::abs(controlled_) > 0.1 * fluid)

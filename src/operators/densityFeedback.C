@@ -112,13 +112,13 @@ void densityFeedback::addTo(List<scalar>& q, const neighbourList& list, const Li
     {
         if (cloud_.zones[z].phase != phaseType::fluid || (rate == 0 && start_[z] > 0)) continue;
         const density s(cloud_, list, kernel_,
-                        [&](label i) { return isOf(i, z) && !cloud_.pFixed[i] && !isCut(i); });
+                        [&](label i) { return isOf(i, z) && !cloud_.beyondOpen(i) && !isCut(i); });
         if (s.n < fewest) continue;
         const scalar d = (s.mean - k_ * s.variance) / latticeSum_;
         if (start_[z] == 0) start_[z] = d;
         const scalar source = rate * (d - 0.5 * (1 + start_[z]));
         for (label i = cloud_.nSolid(); i < cloud_.n(); ++i)
-            if (isOf(i, z) && !cloud_.pFixed[i]) q[i] = source, added_ += source * cloud_.volume();
+            if (isOf(i, z) && !cloud_.beyondOpen(i)) q[i] = source, added_ += source * cloud_.volume();
     }
 }
 

@@ -92,7 +92,7 @@ void particleCloud::sortFluid(scalar cellSize)
 void particleCloud::clearGhosts()
 {
     x.resize(n_), Up.resize(n_), phase.resize(n_);
-    source_.clear(), rule_.clear(), offset_.clear(), rules_.clear();
+    source_.clear(), rule_.clear(), offset_.clear(), through_.clear(), rules_.clear();
 }
 
 label particleCloud::addRule(const Eigen::Matrix4d& M, const tensor& R)
@@ -106,6 +106,14 @@ void particleCloud::addImage(label source, label rule, const vector& position, c
     x.push_back(vec4::from(position)), Up.push_back(vec4{});
     phase.push_back(phase[source]);
     source_.push_back(source), rule_.push_back(rule), offset_.push_back(b);
+    through_.push_back(vector::Zero());
+}
+
+void particleCloud::addMirror(const imageSource& source, const vector& position, const vec4& b,
+                              const vector& through)
+{
+    addImage(source.particle, source.rule, position, b);
+    through_.back() = through;
 }
 
 void particleCloud::addRigid(const vector& position, const vector& velocity)
@@ -113,6 +121,7 @@ void particleCloud::addRigid(const vector& position, const vector& velocity)
     x.push_back(vec4::from(position)), Up.push_back(vec4::from(velocity));
     phase.push_back(phaseType::rigid);
     source_.push_back(-1), rule_.push_back(0), offset_.push_back(vec4::from(velocity));
+    through_.push_back(vector::Zero());
 }
 
 void particleCloud::fillGhosts(List<vec4>& f, bool homogeneous) const
@@ -144,9 +153,7 @@ void particleCloud::fillContinuityGhosts(List<vec4>& f) const
             if (source_[g] < 0) continue;
             const ghostRule& rule = rules_[rule_[g]];
             if (rule.R == rule.M.topLeftCorner<3, 3>()) continue;
-            // u - 2 n n.(u - u_wall), b = 2 u_wall
-            const vector b = offset_[g].xyz();
-            f[n_ + g].setXyz(rule.R * f[source_[g]].xyz() + 0.5 * (b - rule.R * b));
+            f[n_ + g].setXyz(rule.R * f[source_[g]].xyz() + through_[g]);
         }
     });
 }

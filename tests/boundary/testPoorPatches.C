@@ -141,7 +141,7 @@ TEST_CASE("motions that cannot be")
         return c.with("base { type wall; representation mirror;\nmotion { " + motion + " } }");
     };
     CHECK_ERROR(moving("direction (0 0 1);"),
-                "either 'direction' and 'displacement', or 'velocity'", 2);
+                "'direction' and 'displacement', 'velocity', or 'rotation'", 2);
     CHECK_ERROR(moving("direction (0 0 0); displacement 1;"), "must not be zero", 2);
     CHECK_ERROR(moving("velocity (0 0 1); displacement 1;"), "or 'velocity'", 2);
     CHECK_ERROR(c.with("base { type wall; surface plane; point (0 0 0); normal (0 0 -1);\n"

@@ -83,6 +83,6 @@ TEST_CASE("walls that push into a box without a way out are refused")
     };
     // as much room above as is taken below
     second("top { type wall; surface plane; point (0 0.12 0); normal (0 1 0); " + rising);
-    CHECK_THROWS_WITH_AS(runSteps(c, *scheme, 0.01, 1), doctest::Contains("only walls enclose"),
+    CHECK_THROWS_WITH_AS(runSteps(c, *scheme, 0.01, 1), doctest::Contains("no other way out"),
                          fatalError);
 }

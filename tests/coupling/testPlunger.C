@@ -57,7 +57,7 @@ TEST_CASE("the volume a plunger sweeps along an oblique path is exact, also in p
     CHECK(to(1.7, 5) == relative(0.81 * perMetre, 1e-12));
     CHECK(to(3, 11) == relative(-0.3 * perMetre, 1e-12));
     walls.setStep(0.2, 0.9);
-    CHECK(walls.maxWallSpeed() == relative(0.6, 1e-12));
+    CHECK(walls.maxGivenSpeed() == relative(0.6, 1e-12));
 }
 
 namespace

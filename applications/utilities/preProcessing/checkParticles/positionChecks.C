@@ -112,7 +112,7 @@ scalar largestGap(const fsiCase& c, const List<vector>& x, vector& where)
     };
     for (label i = 0; i < cloud.n(); ++i)
     {
-        if (cloud.pFixed[i] || (!cloud.isFluid(i) && nearOpen(i))) continue;
+        if (cloud.beyondOpen(i) || (!cloud.isFluid(i) && nearOpen(i))) continue;
         for (int k = 0; k < 27; ++k)
         {
             const vector way(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);

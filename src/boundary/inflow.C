@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "inflow.H"
+
+#include "patchSurface.H"
+#include "token.H"
+
+#include <Eigen/Sparse>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+token firstOf(const dictionary& dict, const word& key)  // of kind end if it is a dictionary
+{
+    if (dict.isDict(key) || dict.tokenList(key).empty()) return {};
+    return dict.tokenList(key).front();
+}
+
+}  // namespace
+
+bool inflow::given(const dictionary& dict)
+{
+    const bool p = dict.found("p"), rate = dict.found("flowRate"),
+               velocity = dict.found("velocity");
+    if (p + rate + velocity != 1)
+        dict.fail(
+            velocity ? "velocity"
+            : rate   ? "flowRate"
+                     : "p",
+            "An open patch wants exactly one of 'p' [Pa], 'velocity' [m/s] and 'flowRate' [m3/s]");
+    return !p;
+}
+
+inflow::inflow(const dictionary& dict, const word& caseFolder, const place& at) : face_(at.face)
+{
+    const bool isRate = dict.found("flowRate");
+    const word key = isRate ? "flowRate" : "velocity";
+    if (isRate && face_.empty())
+        dict.fail(key,
+                  "The area of a plane that symmetry planes, cyclic patches or plane walls do not "
+                  "bound on all sides is not known; give a velocity, or 'surface triSurface'");
+    if (isRate) perRate_ = 1 / (face_.area() * at.images);
+    const bool isVector = firstOf(dict, key).is('(');
+    if (isVector)
+        direction_ = dict.get<vector>(key, dims::velocity), steady_ = -direction_.dot(at.normal);
+    else rate_ = Function1::New(key, dict, caseFolder, isRate ? at.rateDimensions : dims::velocity);
+    if (dict.found("direction"))
+    {
+        if (isVector) dict.fail("direction", "the velocity's vector has a direction already");
+        direction_ = nonZero(dict, "direction");
+    }
+    if (!direction_.isZero(0))
+    {
+        const scalar in = -direction_.dot(at.normal);
+        if (std::abs(in) < 0.05 * direction_.norm() || (!isVector && in < 0))
+            dict.fail(
+                isVector ? key : "direction",
+                "points along the face or, as a direction, out of the fluid. The face's outward "
+                "normal is (" +
+                    str(at.normal[0], 3) + " " + str(at.normal[1], 3) + " " + str(at.normal[2], 3) +
+                    ")");
+        direction_ /= in;
+    }
+    setProfile(dict, caseFolder, at);
+}
+
+void inflow::setProfile(const dictionary& dict, const word& caseFolder, const place& at)
+{
+    if (!dict.found("profile")) return;
+    const bool isTable = dict.isDict("profile") || dict.tokenList("profile").size() > 1;
+    const word name = isTable ? "table" : dict.choose("profile", {"flat", "parabolic", "table"});
+    if (name == "flat") return;
+    if (face_.empty())
+        dict.fail("profile",
+                  "The rim of a plane that other planes do not bound on all sides is not known; "
+                  "take 'surface triSurface', or profile flat");
+    const List<char> held = face_.heldNodes(at.isHeld);
+    if (std::find(held.begin(), held.end(), 1) == held.end())
+        dict.fail("profile",
+                  "No wall holds the fluid at the rim of this face: its profile is flat");
+    if (name == "parabolic") parabolic(at);
+    else tabulated(*Function1::New("profile", dict, caseFolder, dims::none), at);
+    const scalar mean = face_.mean(profile_);
+    if (!(mean > 0))
+        dict.fail("profile", name == "parabolic"
+                                 ? "The face's triangles are too coarse to hold a profile"
+                                 : "The mean of the profile over the face must be positive");
+    for (scalar& w : profile_) w /= mean;
+    most_ = *std::max_element(profile_.begin(), profile_.end());
+}
+
+// Linear finite elements on the face's triangles; the natural condition where nothing holds the fluid
+void inflow::parabolic(const place& at)
+{
+    const triSurface& s = face_.surface();
+    const List<char> held = face_.heldNodes(at.isHeld);
+    const label n = label(s.nodes.size());
+    List<Eigen::Triplet<scalar>> entries;
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(n);
+    for (label t = 0; t < s.size(); ++t)
+    {
+        const scalar area = s.areaVector(t).norm();
+        for (int a = 0; a < 3; ++a)
+        {
+            const label i = s.triangles[t][a];
+            if (held[i]) continue;
+            load[i] += area / 3;
+            const vector ea = s.corner(t, (a + 2) % 3) - s.corner(t, (a + 1) % 3);
+            for (int b = 0; b < 3; ++b)
+            {
+                const vector eb = s.corner(t, (b + 2) % 3) - s.corner(t, (b + 1) % 3);
+                if (const label j = s.triangles[t][b]; !held[j])
+                    entries.emplace_back(i, j, ea.dot(eb) / (4 * area));
+            }
+        }
+    }
+    for (label i = 0; i < n; ++i)
+        if (held[i]) entries.emplace_back(i, i, 1);
+    Eigen::SparseMatrix<scalar> K(n, n);
+    K.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::VectorXd w = Eigen::SimplicialLDLT<Eigen::SparseMatrix<scalar>>(K).solve(load);
+    profile_.assign(w.data(), w.data() + n);
+}
+
+void inflow::tabulated(const Function1& profile, const place& at)
+{
+    const triSurface& s = face_.surface();
+    const List<char> held = face_.heldNodes(at.isHeld);
+    profile_.assign(s.nodes.size(), std::numeric_limits<scalar>::max());
+    for (size_t i = 0; i < s.nodes.size(); ++i)
+        for (size_t k = 0; k < s.nodes.size(); ++k)
+            if (held[k]) profile_[i] = std::min(profile_[i], (s.nodes[i] - s.nodes[k]).norm());
+    const scalar most = *std::max_element(profile_.begin(), profile_.end());
+    for (scalar& d : profile_) d = profile.value(1 - d / most);
+}
+
+void inflow::setStep(scalar t0, scalar t1)
+{
+    mean_ = rate_ ? perRate_ * rate_->value(0.5 * (t0 + t1)) : steady_;
+}
+
+vector inflow::velocity(const vector& foot, const vector& normal) const
+{
+    const scalar u = mean_ * (profile_.empty() ? 1 : face_.interpolate(profile_, foot));
+    return direction_.isZero(0) ? vector(-u * normal) : vector(u * direction_);
+}
+
+}  // namespace ispf
