@@ -86,7 +86,10 @@ for file in $control system/sphSolution constant/boundary constant/physicalPrope
     refused "deep|levels" "nested 100000 >> $file" ispfFsiFoam
     refused "zero byte.*$name at line|$name.* at line" "head -c 500 /dev/zero >> $file" ispfFsiFoam
     refused "no file .*absent" "echo '#include \"absent\"' >> $file" ispfFsiFoam
-    refused "codeStream is refused.*$name" "echo 'a #codeStream { code #{ #}; };' >> $file" ispfFsiFoam
+done
+for entry in "$control deltaT" "system/sphSolution coupling" "constant/physicalProperties rho"; do
+    set -- $entry
+    refused "codeStream, which is refused.*$(basename "$1")" "echo '$2 #codeStream { code #{ #}; };' >> $1" ispfFsiFoam
 done
 accepted "sed -i 's/\$/\r/' $control system/* constant/boundary constant/*Properties" ispfFsiFoam  # CRLF
 accepted "for f in $control system/sph* constant/boundary; do { printf '\xef\xbb\xbf'; cat \$f; } > x; mv x \$f; done" ispfFsiFoam
