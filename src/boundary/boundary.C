@@ -385,7 +385,8 @@ void boundary::printBalance(const particleCloud& cloud) const
     {
         created += b.created, deleted += b.deleted, pushed += b.pushed;
         if (!passes(b)) continue;
-        fluxes += (fluxes.empty() ? "" : ", ") + b.name + " " + str(b.flux), sum += b.flux;
+        const scalar flux = symmetryFactor() * b.flux;  // of the whole body, as in the ledger
+        fluxes += (fluxes.empty() ? "" : ", ") + b.name + " " + str(flux), sum += flux;
     }
     if (!fluxes.empty())
         info() << "patch flux [m" << cloud.nDims << "/s, out]: " << fluxes << ", sum " << str(sum)
