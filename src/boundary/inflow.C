@@ -64,7 +64,7 @@ inflow::inflow(const dictionary& dict, const word& caseFolder, const place& at) 
                 "normal is (" +
                     str(at.normal[0], 3) + " " + str(at.normal[1], 3) + " " + str(at.normal[2], 3) +
                     ")");
-        direction_ /= in;
+        direction_ /= in, most_ = direction_.norm();
     }
     setProfile(dict, caseFolder, at);
 }
@@ -83,22 +83,21 @@ void inflow::setProfile(const dictionary& dict, const word& caseFolder, const pl
     if (std::find(held.begin(), held.end(), 1) == held.end())
         dict.fail("profile",
                   "No wall holds the fluid at the rim of this face: its profile is flat");
-    if (name == "parabolic") parabolic(at);
-    else tabulated(*Function1::New("profile", dict, caseFolder, dims::none), at);
+    if (name == "parabolic") parabolic(held);
+    else tabulated(*Function1::New("profile", dict, caseFolder, dims::none), held);
     const scalar mean = face_.mean(profile_);
     if (!(mean > 0))
         dict.fail("profile", name == "parabolic"
                                  ? "The face's triangles are too coarse to hold a profile"
                                  : "The mean of the profile over the face must be positive");
     for (scalar& w : profile_) w /= mean;
-    most_ = *std::max_element(profile_.begin(), profile_.end());
+    most_ *= *std::max_element(profile_.begin(), profile_.end());
 }
 
 // Linear finite elements on the face's triangles; the natural condition where nothing holds the fluid
-void inflow::parabolic(const place& at)
+void inflow::parabolic(const List<char>& held)
 {
     const triSurface& s = face_.surface();
-    const List<char> held = face_.heldNodes(at.isHeld);
     const label n = label(s.nodes.size());
     List<Eigen::Triplet<scalar>> entries;
     Eigen::VectorXd load = Eigen::VectorXd::Zero(n);
@@ -127,10 +126,9 @@ void inflow::parabolic(const place& at)
     profile_.assign(w.data(), w.data() + n);
 }
 
-void inflow::tabulated(const Function1& profile, const place& at)
+void inflow::tabulated(const Function1& profile, const List<char>& held)
 {
     const triSurface& s = face_.surface();
-    const List<char> held = face_.heldNodes(at.isHeld);
     profile_.assign(s.nodes.size(), std::numeric_limits<scalar>::max());
     for (size_t i = 0; i < s.nodes.size(); ++i)
         for (size_t k = 0; k < s.nodes.size(); ++k)

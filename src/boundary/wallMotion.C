@@ -45,7 +45,6 @@ void wallMotion::readSlide(const dictionary& patch, const word& caseFolder)
         slideSpeed_ = Function1::New("speed", d, caseFolder, dims::velocity);
     }
     else slideDirection_ = patch.getOrDefault<vector>("velocity", vector::Zero(), dims::velocity);
-    slide_ = slideDirection_ != vector::Zero();
     if (const dictionary* d = patch.findDict("rotation"))
     {
         spin_.readAxis(*d);

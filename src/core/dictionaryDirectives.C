@@ -107,7 +107,8 @@ void dictionaryParser::enterFile(const word& path, const token& name)
     spend(500 + std::filesystem::file_size(path) / 16, name);
 }
 
-void dictionaryParser::include(const token& directive, source& in)
+// The file that is to be read now; empty if it may be absent and is
+word dictionaryParser::enterInclude(const token& directive, source& in)
 {
     const token name = in.take();
     if (name.kind != token::quoted && name.kind != token::plain)
@@ -115,9 +116,14 @@ void dictionaryParser::include(const token& directive, source& in)
              name);
     const word path = includedPath(directive, name);
     const bool optional = directive.text != "include" && directive.text != "includeEtc";
-    if (optional && !isFile(path)) return;
+    if (optional && !isFile(path)) return "";
     enterFile(path, name);
-    parseFile(path);
+    return path;
+}
+
+void dictionaryParser::include(const token& directive, source& in)
+{
+    if (const word path = enterInclude(directive, in); !path.empty()) parseFile(path);
 }
 
 // key #include "file";  the file holds the value.  Also #calc, #eval and #neg; #codeStream { ... } is
@@ -143,14 +149,8 @@ void dictionaryParser::appendValueDirective(const token& key, const token& name,
 void dictionaryParser::includeValue(const token& key, const token& directive, source& in,
                                     List<token>& value)
 {
-    const token name = in.take();
-    if (name.kind != token::quoted && name.kind != token::plain)
-        fail("#" + directive.text + " wants a file name in quotes, found " + name.described() + ".",
-             name);
-    const word path = includedPath(directive, name);
-    const bool optional = directive.text != "include" && directive.text != "includeEtc";
-    if (optional && !isFile(path)) return;
-    enterFile(path, name);
+    const word path = enterInclude(directive, in);
+    if (path.empty()) return;
     files_.push_back(path);
     const word text = readText(path) + "\n;";
     source file(text, path);

@@ -241,8 +241,7 @@ void monolithic::printContinuityErrors(const List<scalar>& b, const List<scalar>
 {
     List<scalar> Az(b.size()), left(b.size() / 4);
     system_.apply(z, Az);
-    for (size_t i = 0; i < left.size(); ++i)
-        left[i] = (Az[4 * i + 3] - b[4 * i + 3]) / c_.cloud.dx;
+    for (size_t i = 0; i < left.size(); ++i) left[i] = (Az[4 * i + 3] - b[4 * i + 3]) / c_.cloud.dx;
     ispf::printContinuityErrors(c_.cloud, left, dt);
 }
 

@@ -118,7 +118,8 @@ void densityFeedback::addTo(List<scalar>& q, const neighbourList& list, const Li
         if (start_[z] == 0) start_[z] = d;
         const scalar source = rate * (d - 0.5 * (1 + start_[z]));
         for (label i = cloud_.nSolid(); i < cloud_.n(); ++i)
-            if (isOf(i, z) && !cloud_.beyondOpen(i)) q[i] = source, added_ += source * cloud_.volume();
+            if (isOf(i, z) && !cloud_.beyondOpen(i))
+                q[i] = source, added_ += source * cloud_.volume();
     }
 }
 

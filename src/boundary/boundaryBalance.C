@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The books of the patches
+#include "boundaryContent.H"
+
+#include <ostream>
+
+namespace ispf
+{
+
+List<scalar> patchBalance::state() const
+{
+    return {swept, scalar(created), scalar(deleted), scalar(pushed), volume, flux};
+}
+
+void patchBalance::restore(const List<scalar>& s)
+{
+    if (s.size() < 4) return;
+    swept = s[0], created = label(s[1]), deleted = label(s[2]), pushed = label(s[3]);
+    if (s.size() == 6) volume = s[4], flux = s[5];
+}
+
+const List<patchBalance>& boundary::balance() const
+{
+    return content_->balance;
+}
+
+void boundary::printBalance(const particleCloud& cloud) const
+{
+    const List<patchBalance>& patches = content_->balance;
+    const auto passes = [&](const patchBalance& b) {
+        for (const wall& w : content_->walls.walls())
+            if (w.name == b.name) return w.motion.moves();
+        for (const openFace& face : content_->openFaces)
+            if (face.name() == b.name) return true;
+        return false;
+    };
+    word fluxes;
+    scalar sum = 0;
+    label created = 0, deleted = 0, pushed = 0;
+    for (const patchBalance& b : patches)
+    {
+        created += b.created, deleted += b.deleted, pushed += b.pushed;
+        if (!passes(b)) continue;
+        const scalar flux = symmetryFactor() * b.flux;  // of the whole body, as in the ledger
+        fluxes += (fluxes.empty() ? "" : ", ") + b.name + " " + str(flux), sum += flux;
+    }
+    if (!fluxes.empty())
+        info() << "patch flux [m" << cloud.nDims << "/s, out]: " << fluxes << ", sum " << str(sum)
+               << "\n";
+    if (created + deleted + pushed > 0 || hasOpen())
+        info() << "particles: " << cloud.n() << "; so far created " << created << ", deleted "
+               << deleted << ", put back " << pushed << "\n";
+}
+
+void boundary::restoreBalance(const List<patchBalance>& balance)
+{
+    content_->balance = balance;
+}
+
+}  // namespace ispf

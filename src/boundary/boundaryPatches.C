@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reading constant/boundary and the files that its patches need
+#include "boundaryContent.H"
+
+#include "fileNames.H"
+#include "siteFile.H"
+
+namespace ispf
+{
+
+void boundary::content::addPatch(const word& name, const dictionary& dict, const word& caseFolder)
+{
+    const word type = dict.choose("type", {"wall", "symmetryPlane", "cyclic", "open"});
+    const label index = label(balance.size());
+    balance.push_back({name});
+    for (const word key : {"point", "normal"}) dict.found(key);  // generateParticles asks for them
+    if (type == "symmetryPlane")
+        group.addSymmetryPlane(name, dict.get<vector>("point", dims::length),
+                               nonZero(dict, "normal"));
+    else if (type == "cyclic")
+        group.addCyclic(name, dict.get<vector>("point", dims::length),
+                        nonZero(dict, "separation", dims::length),
+                        dict.found("pressureDrop")
+                            ? Function1::New("pressureDrop", dict, caseFolder, dims::pressure)
+                            : nullptr);
+    else if (type == "open") openIndex.push_back(index);
+    else
+    {
+        wall w = wall::New(name, dict, caseFolder);
+        w.index = index;
+        walls.add(std::move(w));
+    }
+}
+
+// The rows of the solid know nothing of a pressure that differs between a pair's sides
+void boundary::content::checkDrops(const dictionary& patches, const particleCloud& cloud,
+                                   scalar support) const
+{
+    for (const word& name : patches.dictKeys())
+    {
+        const dictionary& dict = patches.subDict(name);
+        if (!dict.found("pressureDrop")) continue;
+        const vector low = dict.get<vector>("point", dims::length),
+                     separation = dict.get<vector>("separation", dims::length);
+        for (label i = 0; i < cloud.nSolid(); ++i)
+        {
+            const scalar along = (cloud.x[i].xyz() - low).dot(separation.normalized());
+            if (along > support && along < separation.norm() - support) continue;
+            dict.fail(
+                "pressureDrop",
+                "A solid reaches over the cyclic patch " + name + " (" + cloud.describe(i) +
+                    "): its load would not know of the pressure drop. Drive the fluid's zone "
+                    "with bodyForce in constant/physicalProperties instead: pressureDrop over "
+                    "rho times the length");
+        }
+    }
+}
+
+faceMesh boundary::content::meshOf(const word& name, const dictionary& dict, const word& caseFolder,
+                                   const particleCloud& cloud) const
+{
+    const bool plane = dict.found("surface") && dict.get<word>("surface") == "plane";
+    triSurface s = plane ? walls.rectangle(dict.get<vector>("point", dims::length),
+                                           nonZero(dict, "normal").normalized())
+                         : readPatch(caseFolder, name, dict);
+    return s.empty() ? faceMesh() : faceMesh(std::move(s), group, cloud);
+}
+
+void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& patches,
+                                     const particleCloud& cloud)
+{
+    if (openIndex.empty()) return;
+    const siteFile sites(caseFolder + "/constant/openSites.hdf");
+    for (const label index : openIndex)
+    {
+        const word& name = balance[index].name;
+        const dictionary& dict = patches.subDict(name);
+        openFaces.emplace_back(name, dict, caseFolder,
+                               openFace::setting{group, cloud, sites.stripLayers(),
+                                                 meshOf(name, dict, caseFolder, cloud),
+                                                 [&](const vector& x) { return walls.holds(x); }});
+    }
+    const auto allowed = [&](const vector& x, scalar distance) {
+        for (const openFace& face : openFaces)
+            if (face.beyondStrip(x)) return false;
+        return group.beyond(x) <= -distance && walls.clear(x, distance);
+    };
+    for (openFace& face : openFaces)
+    {
+        const fileLocation where = patches.subDict(face.name()).where("type");
+        face.setSites(sites.positions(face.name(), where), cloud, allowed);
+    }
+}
+
+boundary::boundary(const word& caseFolder, const dictionary& patches, const particleCloud& cloud,
+                   scalar support, scalar t0)
+    : content_(std::make_unique<content>())
+{
+    content& c = *content_;
+    for (const word& name : patches.dictKeys()) c.addPatch(name, patches.subDict(name), caseFolder);
+    c.group.close(cloud, support);
+    c.checkDrops(patches, cloud, support);
+    c.walls.read(caseFolder, patches, c.group, cloud, support, t0);
+    c.walls.setStep(0, 1);
+    c.wetted.find(c.walls, c.group, cloud);
+    c.visibility.find(c.walls, support);
+    c.mirror.find(c.walls, support);
+    c.addOpenFaces(caseFolder, patches, cloud);
+    for (const char* file : {"/constant/wallParticles.hdf", "/constant/openSites.hdf"})
+        if (isFile(caseFolder + file)) siteFile(caseFolder + file).checkPatches(patches);
+    patches.checkAllRead();
+}
+
+}  // namespace ispf
