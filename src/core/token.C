@@ -37,7 +37,6 @@ tokenReader::tokenReader(const word& text, const word& fileName)
     : s_(text), file_(keptName(fileName))
 {
     if (s_.size() >= UINT32_MAX) fail("A dictionary of 4 GB or more cannot be read.", 0);
-    if (s_.compare(0, 3, "\xEF\xBB\xBF") == 0) i_ = 3;  // byte order mark
 }
 
 void tokenReader::fail(const word& message, int line) const
@@ -93,6 +92,7 @@ void tokenReader::skipBlank()
     while (i_ < s_.size())
     {
         if (isBlank(s_[i_])) line_ += s_[i_++] == '\n';
+        else if (at("\xEF\xBB\xBF")) i_ += 3;  // byte order mark: also between files put together
         else if (at("//")) i_ = std::min(s_.find('\n', i_), s_.size());
         else if (at("/*")) i_ += 2, upTo("*/", "comment /*");
         else return;

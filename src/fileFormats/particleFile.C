@@ -5,7 +5,7 @@
 //   /ispf/extra/<name>, /ispf/text/<name>
 // Each array of ours has an attribute checksum.  All numbers are double or 64-bit integers, so what ParaView
 // shows is what a restart reads.  Version 1 had one checksum, /ispf@checksum, for all.
-#include "particleTable.H"
+#include "particleFile.H"
 
 #include "fileNames.H"
 #include "hdf5File.H"
@@ -80,15 +80,16 @@ private:
 class tableReader
 {
 public:
-    explicit tableReader(const word& path) : path_(path), file_(path) {}
+    tableReader(const word& path, List<word>& remarks) : path_(path), file_(path), remarks_(remarks)
+    {
+    }
 
     particleTable read()
     {
         version_ = readVersion();
         for (const word& name : file_.children("/"))
             if ("/" + name != grid && "/" + name != ours)
-                warning(path_ + ": '/" + name +
-                        "' is not one of particles: later times are without it");
+                remark("'/" + name + "' is not one of particles: later times are without it");
         particleTable table;
         get(points, table.x);
         for (const word& name : file_.children(columns)) readColumn(name, table);
@@ -102,6 +103,8 @@ public:
     }
 
 private:
+    void remark(const word& text) { remarks_.push_back(path_ + ": " + text); }
+
     globalId readVersion() const
     {
         if (!file_.found(ours) || !file_.found(columns) || !file_.foundAttribute(ours, "version"))
@@ -123,8 +126,8 @@ private:
         file_.read(path, values);
         if (version_ == 1) return;
         if (!file_.foundAttribute(path, sum))
-            return warning(path_ + ": '" + path +
-                           "' has no checksum: somebody else has put it in, and it is kept");
+            return remark("'" + path +
+                          "' has no checksum: somebody else has put it in, and it is kept");
         List<globalId> stored;
         file_.attribute(path, sum, stored);
         if (stored != List<globalId>{checksumOf(path, values)})
@@ -154,10 +157,10 @@ private:
         }
     }
 
-    void checkWhole(const particleTable& table) const
+    void checkWhole(const particleTable& table)
     {
         if (!file_.foundAttribute(ours, sum))
-            return warning(path_ + " has no checksum: it is read as it is");
+            return remark("it has no checksum and is read as it is");
         List<globalId> stored;
         file_.attribute(ours, sum, stored);
         if (stored != List<globalId>{checksumOf(table)})
@@ -179,6 +182,7 @@ private:
 
     word path_;
     hdf5Reader file_;
+    List<word>& remarks_;
     globalId version_ = 0;
 };
 
@@ -190,9 +194,9 @@ void writeParticles(const particleTable& table, const word& path)
     writeText(path, composer().bytes(table));
 }
 
-particleTable readParticles(const word& path)
+particleTable readParticlesHere(const word& path, List<word>& remarks)
 {
-    return tableReader(path).read();
+    return tableReader(path, remarks).read();
 }
 
 }  // namespace ispf

@@ -2,7 +2,7 @@
 #include "fileInMemory.H"
 #include "fileNames.H"
 #include "hdf5File.H"
-#include "particleTable.H"
+#include "particleFile.H"
 #include "targets.H"
 
 #include <cmath>
@@ -131,32 +131,48 @@ void check(const particleTable& table)
         }
 }
 
+word contentFrom(const word& bytes)
+{
+    word content = bytes.substr(1);
+    byteSource source(content);
+    switch (static_cast<unsigned char>(bytes[0]) % 4)
+    {
+        case 1:
+            return composed(source);
+        case 2:
+            return patched(source);
+        default:
+            return content;
+    }
+}
+
 }  // namespace
 
 void hdf5(const word& bytes)
 {
     static fileInMemory file;
     if (bytes.empty()) return;
-    try
-    {
-        word content = bytes.substr(1);
-        byteSource source(content);
-        switch (static_cast<unsigned char>(bytes[0]) % 3)
+    quietly([&] {
+        if (static_cast<unsigned char>(bytes[0]) % 4 == 3)
         {
-            case 1:
-                content = composed(source);
-                break;
-            case 2:
-                content = patched(source);
-                break;
+            unpacker in(std::string_view(bytes).substr(1));
+            unpackTable(in);
+            return;
         }
-        file.set(content);
+        file.set(contentFrom(bytes));
+        List<word> remarks;
+        check(readParticlesHere(file.path(), remarks));
+    });
+}
+
+void hdf5InItsProcess(const word& bytes)
+{
+    static fileInMemory file;
+    if (bytes.empty()) return;
+    quietly([&] {
+        file.set(contentFrom(bytes));
         check(readParticles(file.path()));
-    }
-    catch (const fatalError& e)
-    {
-        formatted(e);
-    }
+    });
 }
 
 }  // namespace ispf::fuzz

@@ -25,8 +25,7 @@ bool sound(const triSurface& s)
 
 void stl(const word& bytes)
 {
-    try
-    {
+    quietly([&] {
         triSurface s = parseSTL(bytes, "fuzz.stl");
         if (s.empty() || !sound(s)) std::abort();
         s.weld(1e-9 * s.bounds().diagonal());
@@ -34,11 +33,7 @@ void stl(const word& bytes)
         orientOutward(s);
         if (!sound(s)) std::abort();
         s.area(), s.volume();
-    }
-    catch (const fatalError& e)
-    {
-        formatted(e);
-    }
+    });
 }
 
 }  // namespace ispf::fuzz

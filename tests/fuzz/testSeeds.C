@@ -99,3 +99,7 @@ TEST_CASE("any bytes end in a result or a fatalError: HDF5")
 {
     replay("hdf5", fuzz::hdf5, 200);
 }
+TEST_CASE("any bytes end in a result or a fatalError: HDF5 as programs read it")
+{
+    replay("hdf5", fuzz::hdf5InItsProcess, 20);
+}

@@ -5,7 +5,6 @@
 #include "guardedProcess.H"
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <gmsh.h>
 #include <map>
@@ -16,64 +15,6 @@ namespace ispf
 
 namespace
 {
-
-// Plain bytes, the same on both sides of one machine
-struct packer
-{
-    word bytes;
-    template <class T>
-    void put(const T& value)
-    {
-        bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
-    }
-    template <class T>
-    void putList(const List<T>& list)
-    {
-        put(list.size());
-        bytes.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T));
-    }
-    void putWords(const List<word>& list)
-    {
-        put(list.size());
-        for (const word& w : list) putList(List<char>(w.begin(), w.end()));
-    }
-};
-
-struct unpacker
-{
-    const word& bytes;
-    size_t at = 0;
-    void take(void* to, size_t n)
-    {
-        if (at + n > bytes.size()) throw fatalError("gmsh's result is cut off");
-        std::memcpy(to, &bytes[at], n);
-        at += n;
-    }
-    template <class T>
-    T get()
-    {
-        T value;
-        take(&value, sizeof(T));
-        return value;
-    }
-    template <class T>
-    List<T> getList()
-    {
-        List<T> list(get<size_t>());
-        if (!list.empty()) take(list.data(), list.size() * sizeof(T));
-        return list;
-    }
-    List<word> getWords()
-    {
-        List<word> list(get<size_t>());
-        for (word& w : list)
-        {
-            const auto letters = getList<char>();
-            w.assign(letters.begin(), letters.end());
-        }
-        return list;
-    }
-};
 
 // OpenCASCADE hands colours over in linear light; files and CAD programs show sRGB
 int toSRGB(int linear)
@@ -90,7 +31,7 @@ void check(bool ok, const word& what)
     if (ok) return;
     std::string reason;
     gmsh::logger::getLastError(reason);
-    throw fatalError(what + (reason.empty() ? word() : ": " + reason));
+    throw std::runtime_error(what + (reason.empty() ? word() : ": " + reason));
 }
 
 // A script goes on after a line that it cannot read or a file that is not there
@@ -99,7 +40,7 @@ void checkScript(const word& path)
     std::string error;
     gmsh::logger::getLastError(error);
     if (std::filesystem::path(path).extension() == ".geo" && !error.empty())
-        throw fatalError("gmsh stumbles over it: " + error);
+        throw std::runtime_error("gmsh stumbles over it: " + error);
 }
 
 // Seconds, on a slow machine, where none are given: OpenCASCADE reads some 100 kB a second, gmsh makes
@@ -189,7 +130,8 @@ List<vector> trianglesOf(int face, const std::unordered_map<std::size_t, vector>
     return corners;
 }
 
-word meshInChild(const word& path, const gmshSettings& settings, const grantTime& grant)
+void meshInChild(const word& path, const gmshSettings& settings, const grantTime& grant,
+                 packer& out)
 {
     openFile(path, settings, grant);
     std::vector<std::size_t> tags;
@@ -203,7 +145,6 @@ word meshInChild(const word& path, const gmshSettings& settings, const grantTime
         const auto at = groups.find({dim, tag});
         return at == groups.end() ? List<word>() : at->second;
     };
-    packer out;
     gmsh::vectorpair entities;
     gmsh::model::getEntities(entities, 2);
     out.put(entities.size());
@@ -233,14 +174,12 @@ word meshInChild(const word& path, const gmshSettings& settings, const grantTime
         out.put(mass);
     }
     gmsh::finalize();
-    return out.bytes;
 }
 
-cadModel unpack(const word& bytes, const word& path, scalar unit)
+cadModel unpack(unpacker in, const word& path, scalar unit)
 {
     cadModel model;
     model.path = path;
-    unpacker in{bytes};
     for (size_t n = in.get<size_t>(); n > 0; --n)
     {
         cadFace face;
@@ -270,10 +209,15 @@ cadModel unpack(const word& bytes, const word& path, scalar unit)
 
 cadModel meshWithGmsh(const word& path, const gmshSettings& settings)
 {
-    const word bytes =
-        runGuarded("Meshing " + path + " with gmsh", readingTime(path, settings),
-                   [&](const grantTime& grant) { return meshInChild(path, settings, grant); });
-    return unpack(bytes, path, settings.unit);
+    processLimits limits;
+    limits.seconds = readingTime(path, settings);
+    limits.ifTooLong =
+        " Is the unit right, the mesh size (surfaceSize) not absurdly small? 'timeLimit' sets the "
+        "seconds it may take.";
+    const auto job = [&](packer& out, const grantTime& grant) {
+        meshInChild(path, settings, grant, out);
+    };
+    return unpack(runGuarded("Meshing " + path + " with gmsh", limits, job), path, settings.unit);
 }
 
 }  // namespace ispf
