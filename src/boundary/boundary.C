@@ -115,13 +115,13 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
         }
     }
     c.putBack(cloud);
-    const auto movingWall = [&](const vector& x, scalar distance) {
-        return c.walls.movingWithin(x, distance);
-    };
+    const openFace::movingWalls moving = {
+        [&](const vector& x, scalar distance) { return c.walls.movingWithin(x, distance); },
+        [&](const vector& x, scalar distance) { return c.walls.movedOver(x, distance); }};
     for (size_t k = 0; k < c.openFaces.size(); ++k)
     {
         patchBalance& b = c.balance[c.openIndex[k]];
-        const openFace::change change = c.openFaces[k].exchange(cloud, movingWall);
+        const openFace::change change = c.openFaces[k].exchange(cloud, moving);
         b.created += change.created, b.deleted += change.deleted;
         b.flux = c.openFaces[k].flux(), b.volume += b.flux * dt;
     }

@@ -3,7 +3,6 @@
 #include "boundaryContent.H"
 
 #include "fileNames.H"
-#include "siteFile.H"
 
 namespace ispf
 {
@@ -89,6 +88,49 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
     {
         const fileLocation where = patches.subDict(face.name()).where("type");
         face.setSites(sites.positions(face.name(), where), cloud, allowed);
+    }
+    checkRims(patches, sites, cloud.dx);
+}
+
+// Where two such meet, or a moving wall, particles would be carried into each other
+void boundary::content::checkRims(const dictionary& patches, const siteFile& sites, scalar dx) const
+{
+    const auto strip = [&](const openFace& face) {
+        return sites.positions(face.name(), patches.subDict(face.name()).where("type"));
+    };
+    for (const openFace& face : openFaces)
+    {
+        if (!face.givesVelocity()) continue;
+        const List<vector> own = strip(face);
+        const dictionary& dict = patches.subDict(face.name());
+        for (label w = 0; w < label(walls.walls().size()); ++w)
+            for (const vector& x : own)
+                if (const wall& at = walls.walls()[w];
+                    at.motion.moves() && walls.distance(w, at.frame.toBody(x)) < dx)
+                    dict.fail(
+                        "type",
+                        "Wall " + at.name + " moves, and ends at the face " + face.name() +
+                            ", where the velocity is given: the one would run into what the other "
+                            "brings. Give the pressure there, or the wall a 'velocity' or "
+                            "'rotation' in itself if its surface stays where it is");
+        for (const openFace& other : openFaces)
+        {
+            if (&other <= &face || !other.givesVelocity()) continue;
+            pointGrid grid(2 * dx);
+            for (const vector& x : strip(other)) grid.add(x);
+            for (const vector& x : own)
+            {
+                const label near = grid.nearestIndex(x, 2 * dx);
+                if (near < 0) continue;
+                const vector a = face.givenDirection(x).normalized(),
+                             b = other.givenDirection(grid[near]).normalized();
+                if ((a - b).norm() > 0.1)
+                    dict.fail("type", "The faces " + face.name() + " and " + other.name() +
+                                          " meet, and the velocities they give run into each other "
+                                          "there. Give both one 'direction', one of them the "
+                                          "pressure, or leave a piece of wall between them");
+            }
+        }
     }
 }
 

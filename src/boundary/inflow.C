@@ -81,8 +81,9 @@ void inflow::setProfile(const dictionary& dict, const word& caseFolder, const pl
                   "take 'surface triSurface', or profile flat");
     const List<char> held = face_.heldNodes(at.isHeld);
     if (std::find(held.begin(), held.end(), 1) == held.end())
-        dict.fail("profile",
-                  "No wall holds the fluid at the rim of this face: its profile is flat");
+        dict.fail(
+            "profile",
+            "No wall holds the fluid at the rim of this face: leave the profile away, it is flat");
     if (name == "parabolic") parabolic(held);
     else tabulated(*Function1::New("profile", dict, caseFolder, dims::none), held);
     const scalar mean = face_.mean(profile_);
@@ -145,7 +146,7 @@ void inflow::setStep(scalar t0, scalar t1)
 vector inflow::velocity(const vector& foot, const vector& normal) const
 {
     const scalar u = mean_ * (profile_.empty() ? 1 : face_.interpolate(profile_, foot));
-    return direction_.isZero(0) ? vector(-u * normal) : vector(u * direction_);
+    return u * direction(normal);
 }
 
 }  // namespace ispf

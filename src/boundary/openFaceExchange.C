@@ -12,7 +12,9 @@ namespace ispf
 namespace
 {
 
-constexpr scalar closest = 0.75;  // [dx] no particle is put nearer than this to another one
+constexpr scalar closest = 0.75;    // [dx] no particle is put nearer than this to another one
+constexpr scalar offWalls = 0.35;   // [dx] nor nearer than this to a wall
+constexpr scalar atOnePlace = 0.1;  // [dx] of two so near in the strip one goes
 constexpr scalar missingHere = 0.25, missingAround = 0.5;  // particles, see openFace.H
 constexpr scalar widest = 1.4;  // [dx] a hole of this radius is filled even if none is missing
 
@@ -54,14 +56,22 @@ struct openFace::census
     }
 };
 
+// Those beyond the outer end, and what a wall that runs along the face has pushed onto others in the strip
 label openFace::removeBeyond(particleCloud& cloud) const
 {
     findFeet(cloud);
     List<char> gone(cloud.n(), 0);
+    pointGrid strip(atOnePlace * dx_);
     label kept = cloud.nSolid();
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        if (known_[i].foot.found && known_[i].foot.depth > depth_) gone[i] = 1;
-        else known_[kept++] = known_[i];
+    {
+        const surfaceFoot& f = known_[i].foot;
+        const vector x = cloud.x[i].xyz();
+        gone[i] = f.found && f.depth > 0 && (f.depth > depth_ || strip.any(x, atOnePlace * dx_));
+        if (gone[i]) continue;
+        if (f.found && f.depth > 0) strip.add(x);
+        known_[kept++] = known_[i];
+    }
     const label n = cloud.n() - kept;
     if (n > 0) cloud.remove(gone);
     return n;
@@ -84,7 +94,7 @@ openFace::census openFace::count(const particleCloud& cloud) const
 
 // Spots whose nearest particle is about a spacing away come first: new particles then close up like
 // a lattice, where the largest holes first would leave gaps too narrow to fill
-List<label> openFace::choose(const census& c, const place& movingWall) const
+List<label> openFace::choose(const census& c, const movingWalls& walls) const
 {
     using candidate = std::tuple<scalar, label, scalar>;  // misfit, spot, its hole at that time
     std::priority_queue<candidate, List<candidate>, std::greater<>> queue;
@@ -97,7 +107,7 @@ List<label> openFace::choose(const census& c, const place& movingWall) const
     const scalar counted = std::hypot(region_, openLayer::depth * dx_);
     const scalar hereOfRegion = std::pow(near_ / region_, c.cloud.nDims - 1);
     const auto before = [&](const vector& at) {
-        return movingWall(at, counted) ? 0 : c.before.sum(at, region_, weight);
+        return walls.near(at, counted) ? 0 : c.before.sum(at, region_, weight);
     };
     // a spot is of use if there is room, and particles are missing or the hole may become a wide one
     const label n = label(spots_.size());
@@ -108,7 +118,8 @@ List<label> openFace::choose(const census& c, const place& movingWall) const
             for (label k = begin; k < end; ++k)
             {
                 const spot& at = spots_[k];
-                if (c.particles.any(at.x, closest * dx_)) continue;
+                if (c.particles.any(at.x, closest * dx_) || walls.over(at.x, offWalls * dx_))
+                    continue;
                 hole[k] = c.particles.nearest(at.x, 1.5 * dx_);
                 const scalar inLayer = before(at.foot);
                 missingNear[k] =
@@ -189,12 +200,12 @@ void openFace::insert(particleCloud& cloud, const census& c, const List<label>& 
     }
 }
 
-openFace::change openFace::exchange(particleCloud& cloud, const place& movingWall) const
+openFace::change openFace::exchange(particleCloud& cloud, const movingWalls& walls) const
 {
     change c;
     c.deleted = removeBeyond(cloud);
     const census present = count(cloud);
-    const List<label> chosen = choose(present, movingWall);
+    const List<label> chosen = choose(present, walls);
     if (!chosen.empty()) insert(cloud, present, chosen);
     c.created = label(chosen.size());
     return c;

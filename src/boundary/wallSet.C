@@ -255,6 +255,19 @@ bool wallSet::movingWithin(const vector& x, scalar distance) const
     return false;
 }
 
+bool wallSet::movedOver(const vector& x, scalar distance) const
+{
+    for (const body& b : bodies_)
+    {
+        if (!b.carrier(*this).motion.moves() || b.twoSided) continue;
+        const vector y = frame(b).toBody(x);
+        if (b.surface->crosses(x, y)) return true;
+        const surfaceFoot f = b.surface->find(y);
+        if (f.found && f.aside == 0 && f.depth > -distance) return true;
+    }
+    return false;
+}
+
 bool wallSet::inside(const vector& x) const
 {
     for (const body& b : bodies_)
