@@ -47,9 +47,11 @@ void boundary::printBalance(const particleCloud& cloud) const
     if (!fluxes.empty())
         info() << "patch flux [m" << cloud.nDims << "/s, out]: " << fluxes << ", sum " << str(sum)
                << "\n";
-    if (created + deleted + pushed > 0 || hasOpen())
+    const auto strays = cloud.history.find("strays");
+    if (created + deleted + pushed > 0 || hasOpen() || strays != cloud.history.end())
         info() << "particles: " << cloud.n() << "; so far created " << created << ", deleted "
-               << deleted << ", put back " << pushed << "\n";
+               << deleted << ", put back " << pushed << "; strays "
+               << (strays == cloud.history.end() ? 0 : label(strays->second.at(0))) << "\n";
 }
 
 void boundary::restoreBalance(const List<patchBalance>& balance)

@@ -167,6 +167,23 @@ void fsiCase::sortParticles()
     cloud.clearGhosts();
 }
 
+// Fluid that got out through a gap between patches and has nothing around it takes no part any more: whenever there is
+// more of it, that is said
+void fsiCase::countStrays()
+{
+    label n = 0, last = 0;
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (list.start[i + 1] == list.start[i]) ++n, last = i;
+    const auto known = cloud.history.find("strays");
+    const scalar before = known == cloud.history.end() ? 0 : known->second.at(0);
+    if (n > before)
+        warning("Nothing is near " + cloud.describe(last) + ": it takes no part any more, one of " +
+                std::to_string(n) +
+                " such. Is there a gap between the patches of constant/boundary, or a wall that "
+                "they lack?");
+    if (n != before) cloud.history["strays"] = {scalar(n)};
+}
+
 void fsiCase::updateNeighbours(scalar t0, scalar t1)
 {
     walls->setStep(t0, t1);
@@ -175,6 +192,7 @@ void fsiCase::updateNeighbours(scalar t0, scalar t1)
     walls->updateGhosts(cloud);
     list.build(cloud, *kernel, walls->visible(cloud));
     correction.build(cloud, list);
+    countStrays();
 }
 
 void fsiCase::followOpen(scalar dt)

@@ -170,3 +170,18 @@ TEST_CASE("a uniform stream across a box that is open on all sides")
         CHECK(worst < 0.12 * U);
     }
 }
+
+TEST_CASE("a particle with nothing around it is counted in the log")
+{
+    for (const char* coupling : {"projection", "monolithic"})
+        for (const bool stray : {true, false})
+        {
+            boxCase box = cornerOf(kinds[0], kinds[0], coupling);
+            if (stray) box.besides = {5e-3, 60e-3, 0};
+            box.patch[boxCase::top] = "type open; p 0;";
+            runningBox r(box, "stray");
+            r.run(2.5e-3, 3);
+            r.c.walls->printBalance(r.c.cloud);
+            CHECK(r.log.contains(stray ? "; strays 1\n" : "; strays 0\n"));
+        }
+}
