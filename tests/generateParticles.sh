@@ -27,6 +27,10 @@ igs="file \"$geometry/hccB.igs\";"
 cube
 dict "$stl"
 generateParticles > out 2>&1 && grep -q '^water .* 1000  *+0.00' out || fail "a cube: $(cat out)"
+grep -q "earlier run" out && fail "a cube: told of an earlier run that there is not"
+mkdir 0.5 1; touch 0.5/particles.hdf
+generateParticles > out 2>&1; grep -q "times of an earlier run: 0.5\." out || fail "an earlier run: $(cat out)"
+rm -r 0.5 1
 
 # In 2D a zone is open where symmetry planes cut it: its area is none the less known
 plane() { echo "$1 { type symmetryPlane; point ($2 0); normal ($3 0); }"; }

@@ -73,6 +73,7 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
                              " dx beyond its surface, of " + std::to_string(sites.size()) +
                              " in constant/openSites.hdf. Its normals must point out of the fluid",
                          where_);
+    checkRim(kept, cloud);
     const pointGrid full = sampleFeet(kept, cloud.nDims, allowed);
     layer_ = openLayer(*deep_, kept, cloud, allowed);
     deep_.reset();
@@ -93,6 +94,26 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
         // sites of the outermost layer give way to places at the outer end
         if (feet[k].depth < depth_ - 0.75 * dx_) addSpot(kept[k], feet[k], zone, full);
         addOuterSpots(feet[k], zone, cloud.nDims, {full, taken, allowed});
+    }
+}
+
+// A solid that holds the fluid before the face has to hold that in the strip, too
+void openFace::checkRim(const List<vector>& sites, const particleCloud& cloud) const
+{
+    const scalar beside = 1.2 * dx_, near = 2 * dx_;  // of the fluid before the face, of the site
+    pointGrid solid(near);
+    for (label i = 0; i < cloud.nSolid(); ++i) solid.add(cloud.x[i].xyz());
+    for (const vector& x : sites)
+    {
+        const surfaceFoot f = surface_->find(x);
+        const label at = solid.nearestIndex(f.foot - 0.5 * dx_ * f.normal, beside);
+        if (at < 0 || solid.any(x, near)) continue;
+        throw fatalError(
+            "A solid ends at the open patch " + name_ + ", beside " + cloud.describe(at) +
+                ": nothing holds the fluid beyond. Let its zone, or one of phase clamped, "
+                "reach " +
+                str(depth_ / dx_ + 1) + " dx beyond the face",
+            where_);
     }
 }
 

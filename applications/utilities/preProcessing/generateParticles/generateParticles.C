@@ -3,11 +3,28 @@
 // wall particles, sites of open faces and surfaces out.
 #include "argList.H"
 #include "caseWriter.H"
+#include "fileNames.H"
 #include "packing.H"
 #include "packingReport.H"
 #include "particleDict.H"
+#include "token.H"
 
 using namespace ispf;
+
+// A run would go on from the latest of them with the particles of before
+void warnOfOldTimes(const word& folder)
+{
+    word old;
+    for (const word& name : folderNames(folder))
+        if (scalar t; readNumber(name, t) && t != 0 &&
+                      (isFile(folder + "/" + name + "/particles.hdf") ||
+                       isFile(folder + "/" + name + "/particles.vtp")))
+            old += " " + name;
+    if (!old.empty())
+        warning("There are times of an earlier run:" + old +
+                ". ispfFsiFoam goes on from the latest, if system/controlDict does not say "
+                "'startFrom startTime; startTime 0;'. Remove them to start with the new particles");
+}
 
 int main(int argc, char** argv)
 {
@@ -31,6 +48,7 @@ int main(int argc, char** argv)
         reportPacking(geometry, placed, dict.support);
         writeParticleFiles(folder, geometry, placed, dict.initial(), dict.sources,
                            dict.stripLayers);
+        warnOfOldTimes(folder);
         info() << "End" << std::endl;
         return 0;
     });
