@@ -18,7 +18,7 @@ void warnOfOldTimes(const word& folder)
     for (const word& name : folderNames(folder))
         if (scalar t; readNumber(name, t) && t != 0 &&
                       (isFile(folder + "/" + name + "/particles.hdf") ||
-                       isFile(folder + "/" + name + "/particles.vtp")))
+                       isFile(folder + "/" + name + "/uniform/particles")))
             old += " " + name;
     if (!old.empty())
         warning("There are times of an earlier run:" + old +
