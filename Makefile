@@ -115,9 +115,9 @@ $(OBJECTS): | testPackages
 endif
 
 # What libFuzzer drives: one program per reader of foreign files (tests/fuzz/targets.H)
-FUZZED := dictionary csv stl hdf5
+FUZZED := dictionary csv stl hdf5 hdf5Damaged
 define FUZZER
-$(B)/fuzz/$(1): tests/fuzz/libFuzzer/entry.C $(B)/tests/fuzz/$(1)Target.o $$(call archivesOf,geometry fileFormats)
+$(B)/fuzz/$(1): tests/fuzz/libFuzzer/entry.C $(B)/tests/fuzz/$(1:Damaged=)Target.o $$(call archivesOf,geometry fileFormats)
 	@mkdir -p $$(@D); echo "LD   $$@"
 	@$$(CXX) $$(CXXFLAGS) -fsanitize=fuzzer -iquote src/core -iquote tests/fuzz -DTARGET=$(1) $$^ -o $$@ $$(HDF5_L) -lmuparser -lre2 -lhdf5
 fuzzTargets: $(B)/fuzz/$(1)

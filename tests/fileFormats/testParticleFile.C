@@ -99,7 +99,7 @@ TEST_CASE("a file cut anywhere is an error, never a crash")
     const word bytes = contentOf(folder / "whole.hdf");
     const word path = folder / "cut.hdf";
     setContent(path, bytes);
-    for (size_t length = bytes.size() - 1;; length -= std::min<size_t>(length, 10))
+    for (size_t length = bytes.size() - 1;; length -= std::min<size_t>(length, 100))
     {
         std::filesystem::resize_file(path, length);
         REQUIRE(says(textOfError([&] { readParticles(path); }), path));
@@ -114,7 +114,7 @@ TEST_CASE("changed bytes are an error or change nothing, never a crash")
     const word path = folder / "a.hdf";
     writeParticles(table, path);
     const word bytes = contentOf(path);
-    for (size_t at = 0; at < bytes.size(); at += 7)
+    for (size_t at = 0; at < bytes.size(); at += 61)
     {
         word changed = bytes;
         changed[at] = char(changed[at] ^ 0x10);
@@ -124,6 +124,24 @@ TEST_CASE("changed bytes are an error or change nothing, never a crash")
                 FAIL("a change was not noticed at byte " << at);
         });
         if (!error.empty()) REQUIRE(says(error, path));
+    }
+}
+
+// HDF5 1.10.8 reads beyond its memory here; one that is mended may give a reason of its own
+TEST_CASE("damage on which the HDF5 library crashes is an error")
+{
+    const scratchFolder folder("fault");
+    const word path = folder / "a.hdf";
+    writeParticles(sampleTable(2), path);
+    const word bytes = contentOf(path);
+    for (const size_t at : {120, 688})
+    {
+        word changed = bytes;
+        changed.replace(at, 8, 8, '\xff');
+        setContent(path, changed);
+        const word error = textOfError([&] { readParticles(path); });
+        CHECK(says(error, "Cannot read '" + path));
+        CHECK_MESSAGE((says(error, "ended by the signal") || says(error, "damaged")), error);
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Function1.H"
-#include "fileInMemory.H"
+#include "scratchFile.H"
 #include "targets.H"
 
 #include <cmath>
@@ -30,7 +30,7 @@ word entryFor(const word& path, unsigned how)
 
 void csv(const word& bytes)
 {
-    static fileInMemory file;
+    static scratchFile file;
     if (bytes.empty()) return;
     quietly([&] {
         file.set(bytes.substr(1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fileInMemory.H"
+#include "scratchFile.H"
 #include "fileNames.H"
 #include "hdf5File.H"
 #include "particleFile.H"
@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 
 namespace ispf::fuzz
 {
@@ -95,11 +94,11 @@ word soundFile()
     t.extra["history"] = {1, 2, 3};
     t.attributes["zones"] = "water";
     t.setAttribute("dx", 0.1);
-    const auto path =
-        std::filesystem::temp_directory_path() / ("ispf-fuzz-" + std::to_string(::getpid()));
-    writeParticles(t, path.string());
-    const word bytes = readText(path.string());
-    std::filesystem::remove(path);
+    scratchFile file;
+    writeParticles(t, file.path());
+    List<word> remarks;
+    if (readParticlesHere(file.path(), remarks).x != t.x || !remarks.empty()) std::abort();
+    const word bytes = readText(file.path());
     return bytes;
 }
 
@@ -131,46 +130,35 @@ void check(const particleTable& table)
         }
 }
 
-word contentFrom(const word& bytes)
-{
-    word content = bytes.substr(1);
-    byteSource source(content);
-    switch (static_cast<unsigned char>(bytes[0]) % 4)
-    {
-        case 1:
-            return composed(source);
-        case 2:
-            return patched(source);
-        default:
-            return content;
-    }
-}
-
 }  // namespace
 
 void hdf5(const word& bytes)
 {
-    static fileInMemory file;
+    static scratchFile file;
     if (bytes.empty()) return;
+    const word content = bytes.substr(1);
     quietly([&] {
-        if (static_cast<unsigned char>(bytes[0]) % 4 == 3)
+        if (bytes[0] % 2 == 0)
         {
-            unpacker in(std::string_view(bytes).substr(1));
+            unpacker in(content);
             unpackTable(in);
             return;
         }
-        file.set(contentFrom(bytes));
+        byteSource source(content);
+        file.set(composed(source));
         List<word> remarks;
         check(readParticlesHere(file.path(), remarks));
     });
 }
 
-void hdf5InItsProcess(const word& bytes)
+void hdf5Damaged(const word& bytes)
 {
-    static fileInMemory file;
+    static scratchFile file;
     if (bytes.empty()) return;
+    const word content = bytes.substr(1);
     quietly([&] {
-        file.set(contentFrom(bytes));
+        byteSource source(content);
+        file.set(bytes[0] % 2 == 0 ? content : patched(source));
         check(readParticles(file.path()));
     });
 }

@@ -99,7 +99,7 @@ TEST_CASE("any bytes end in a result or a fatalError: HDF5")
 {
     replay("hdf5", fuzz::hdf5, 200);
 }
-TEST_CASE("any bytes end in a result or a fatalError: HDF5 as programs read it")
+TEST_CASE("any bytes end in a result or a fatalError: damaged HDF5")
 {
-    replay("hdf5", fuzz::hdf5InItsProcess, 20);
+    replay("hdf5Damaged", fuzz::hdf5Damaged, 20);
 }
