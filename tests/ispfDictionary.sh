@@ -72,7 +72,40 @@ refuses "no entry" -entry nothing -remove
 refuses "option -entry is needed" -set 1
 cp original other && ispfDictionary other -entry solvers.U.relTol -set 0.2 > log
 [ "$(ispfDictionary original -diff other | tr -s ' \n' ' ')" = "solvers { U { relTol 0.1; } } " ] || fail "-diff: $(ispfDictionary original -diff other)"
+printf 'base { a 1; }\ncopy { $base; b 3; }\n' > one; printf 'base { a 2; }\n#include "two"\ncopy { $base; b 3; } // same\n' > other
+[ "$(ispfDictionary one -diff other -disableFunctionEntries | tr -s ' \n' ' ')" = "base { a 1; } " ] || fail "raw -diff: $(ispfDictionary one -diff other -disableFunctionEntries)"
+[ "$(ispfDictionary other -diff one -disableFunctionEntries | tr -s ' \n' ' ')" = '#include "two" base { a 2; } ' ] || fail "raw -diff of an include"
 [ -z "$(ispfDictionary original -diff original)" ] || fail "-diff of a file and itself"
+# parts of dictionaries and files of other kinds, as foamDictionary reads them
+cat > boundary <<'END'
+FoamFile { version 2.0; format ascii; class polyBoundaryMesh; object boundary; }
+// patches
+2
+(
+    inlet { type patch; nFaces 10; }   // in
+    outlet { type patch; nFaces 20; }
+)
+END
+[ "$(ispfDictionary boundary -entry entry0.outlet.nFaces -value)" = 20 ] || fail "a list of patches"
+[ "$(ispfDictionary boundary -expand -entry entry0.outlet.nFaces -value)" = 20 ] || fail "a list of patches, expanded"
+ispfDictionary boundary -entry entry0.inlet.type -set wall > log || fail "a list of patches: $(cat log)"
+grep -q "^    inlet { type wall; nFaces 10; }   // in$" boundary && [ "$(wc -l < boundary)" = 7 ] || fail "a list of patches: $(cat boundary)"
+ispfDictionary boundary -entry entry0.outlet -remove > log && ispfDictionary boundary -entry entry0 | grep -q "^1$" || fail "a list of patches without one: $(cat log boundary)"
+printf '3((0 0 0)(1 0 0)\n(0 1 1e-3))\n' > points
+[ "$(ispfDictionary points -expand)" = "3((0 0 0) (1 0 0) (0 1 1e-3))" ] || fail "a list of points: $(ispfDictionary points -expand)"
+echo 'a { $_settings; b 1; }' > part
+[ "$(ispfDictionary part -expand 2> log | tr -s ' \n' ' ')" = "a { b 1; } " ] && grep -q "_settings names no entry" log || fail "a part"
+mkdir -p system
+echo 'type probes; field p;' > system/watch
+echo 'functions { #includeFunc watch
+    # includeFunc "watch(U, p0, count=3)"
+}' > part
+[ "$(ispfDictionary part -expand -entry functions -keywords | tr '\n' ' ')" = "watch watch(U,p0,count=3) " ] || fail "#includeFunc"
+[ "$(ispfDictionary part -expand | grep -c "fields          2(U p0);\|count           3;")" = 2 ] || fail "#includeFunc with arguments: $(ispfDictionary part -expand)"
+echo 'functions { #includeFunc wacht
+}' > part
+ispfDictionary part -expand > log 2>&1 && fail "#includeFunc of nothing"
+grep -q "no file system/wacht" log || fail "#includeFunc of nothing: $(cat log)"
 ln -s original link && ispfDictionary link -entry endTime -set 3 > log
 [ -L link ] && grep -q "endTime   3;" original || fail "an edit through a link"
 [ $failures = 0 ]

@@ -12,35 +12,50 @@ namespace ispf
 namespace
 {
 
-class constant : public Function1
+template <class T>
+T all(scalar v)
+{
+    if constexpr (std::is_same_v<T, vector>) return vector::Constant(v);
+    else return v;
+}
+
+template <class T>
+class constant : public Function1Of<T>
 {
 public:
-    explicit constant(scalar v) : v_(v) {}
-    scalar value(scalar) const override { return v_; }
+    explicit constant(const T& v) : v_(v) {}
+    T value(scalar) const override { return v_; }
 
 private:
-    scalar v_;
+    T v_;
 };
 
 // sum of a t^n over the pairs (a n)
-class polynomial : public Function1
+template <class T>
+class polynomial : public Function1Of<T>
 {
 public:
-    explicit polynomial(const List<Function1Table::row>& terms) : terms_(terms) {}
-    scalar value(scalar t) const override
+    struct term
     {
-        scalar sum = 0;
-        for (const auto& term : terms_) sum += term.t * std::pow(t, term.value);
+        T a;
+        scalar n;
+    };
+    explicit polynomial(const List<term>& terms) : terms_(terms) {}
+    T value(scalar t) const override
+    {
+        T sum = 0 * terms_[0].a;
+        for (const term& term : terms_) sum += term.a * std::pow(t, term.n);
         return sum;
     }
 
 private:
-    List<Function1Table::row> terms_;  // (coefficient, exponent)
+    List<term> terms_;
 };
 
 // scale amplitude wave(frequency (t - t0)) + level; a sine, or a square wave that is +1 for the
 // share mark/(mark + space) of a period and -1 for the rest
-class wave : public Function1
+template <class T>
+class wave : public Function1Of<T>
 {
 public:
     wave(const dictionary& d, const word& caseFolder, const dimensionSet& wanted, bool square)
@@ -48,39 +63,42 @@ public:
           frequency_(d.getInRange("frequency", 0, 1e30, dims::frequency)),
           t0_(d.getOrDefault<scalar>("t0", 0, dims::time)),
           scale_(d.getOrDefault<scalar>("scale", 1)),
-          level_(d.getOrDefault<scalar>("level", 0, wanted)),
-          amplitude_(New("amplitude", d, caseFolder, wanted))
+          level_(d.getOrDefault<T>("level", all<T>(0), wanted)),
+          amplitude_(Function1Of<T>::New("amplitude", d, caseFolder, wanted))
     {
         const scalar markSpace = square ? d.getInRangeOrDefault("markSpace", 1e-12, 1e12, 1) : 1;
         mark_ = markSpace / (1 + markSpace);
     }
-    scalar value(scalar t) const override
+    T value(scalar t) const override
     {
         const scalar cycles = frequency_ * (t - t0_);
         const scalar shape = !square_ ? std::sin(2 * std::numbers::pi * cycles)
                              : cycles - std::floor(cycles) < mark_ ? 1
                                                                    : -1;
-        return scale_ * amplitude_->value(t) * shape + level_;
+        return scale_ * shape * amplitude_->value(t) + level_;
     }
 
 private:
     bool square_;
-    scalar frequency_, t0_, scale_, level_, mark_;
-    std::unique_ptr<Function1> amplitude_;
+    scalar frequency_, t0_, scale_, mark_;
+    T level_;
+    std::unique_ptr<Function1Of<T>> amplitude_;
 };
 
-class scaled : public Function1
+template <class T>
+class scaled : public Function1Of<T>
 {
 public:
     scaled(const dictionary& d, const word& caseFolder, const dimensionSet& wanted)
-        : scale_(New("scale", d, caseFolder, dims::none)),
-          value_(New("value", d, caseFolder, wanted))
+        : scale_(Function1::New("scale", d, caseFolder, dims::none)),
+          value_(Function1Of<T>::New("value", d, caseFolder, wanted))
     {
     }
-    scalar value(scalar t) const override { return scale_->value(t) * value_->value(t); }
+    T value(scalar t) const override { return scale_->value(t) * value_->value(t); }
 
 private:
-    std::unique_ptr<Function1> scale_, value_;
+    std::unique_ptr<Function1> scale_;
+    std::unique_ptr<Function1Of<T>> value_;
 };
 
 // From 0 before `start` to 1 after `duration`
@@ -97,6 +115,8 @@ public:
     {
         const scalar x = std::clamp((t - start_) / duration_, 0.0, 1.0);
         if (type_ == "quadraticRamp") return x * x;
+        if (type_ == "quarterCosineRamp") return 1 - std::cos(std::numbers::pi / 2 * x);
+        if (type_ == "quarterSineRamp") return std::sin(std::numbers::pi / 2 * x);
         return type_ == "halfCosineRamp" ? 0.5 * (1 - std::cos(std::numbers::pi * x)) : x;
     }
 
@@ -105,62 +125,117 @@ private:
     scalar start_, duration_;
 };
 
-const List<word> types = {"constant",   "table",         "tableFile",     "csvFile",
-                          "sine",       "polynomial",    "square",        "scale",
-                          "linearRamp", "quadraticRamp", "halfCosineRamp"};
-
-std::unique_ptr<Function1> tabulated(const List<Function1Table::row>& rows, const dictionary& d)
+template <class T>
+List<word> types()
 {
-    const word out = d.chooseOrDefault("outOfBounds", Function1Table::outOfBoundsWords(), "clamp");
-    return std::make_unique<Function1Table>(rows, out, d.where());
+    List<word> all = {"constant", "uniform", "zero",       "one",    "table", "tableFile",
+                      "csvFile",  "sine",    "polynomial", "square", "scale"};
+    if constexpr (std::is_same_v<T, scalar>)
+        all.insert(all.end(), {"linearRamp", "quadraticRamp", "halfCosineRamp", "quarterCosineRamp",
+                               "quarterSineRamp"});
+    return all;
 }
 
-List<Function1Table::row> rowsIn(const word& key, const dictionary& d)
+template <class T>
+std::unique_ptr<Function1Of<T>> tabulated(const List<Function1Row<T>>& rows, const dictionary& d)
 {
-    return inlineRows(d.tokenList(key), d.where(key));
+    const word out = d.chooseOrDefault("outOfBounds", outOfBoundsWords(), "clamp");
+    return std::make_unique<Function1Table<T>>(rows, out, d.where());
 }
 
-std::unique_ptr<Function1> fromDict(const dictionary& d, const word& caseFolder,
-                                    const dimensionSet& wanted)
+template <class T>
+List<Function1Row<T>> rowsIn(const word& key, const dictionary& d)
 {
-    const word type = d.choose("type", types);
-    if (type == "constant") return std::make_unique<constant>(d.get<scalar>("value", wanted));
-    if (type == "table") return tabulated(inUnits(rowsIn("values", d), d, wanted), d);
-    if (type == "tableFile") return tabulated(inUnits(listFileRows(d, caseFolder), d, wanted), d);
+    return inlineRows<T>(d.tokenList(key), d.where(key));
+}
+
+// ((a n) (b m)), a and b vectors where a vector is wanted
+template <class T>
+std::unique_ptr<Function1Of<T>> powers(const List<token>& tokens, const fileLocation& where)
+{
+    valueReader in(tokens, "coeffs", where);
+    const word form = "terms ((coefficient exponent) ...)";
+    List<typename polynomial<T>::term> terms;
+    if (!in.done() && in.peek().isPlain()) in.take();  // their number
+    for (in.expect('(', form); !in.at(')'); in.expect(')', form))
+    {
+        in.expect('(', form);
+        auto& term = terms.emplace_back();
+        in.read(term.a);
+        in.read(term.n);
+    }
+    in.expect(')', form);
+    in.expectEnd();
+    if (terms.empty()) throw fatalError("A polynomial wants a term.", where);
+    return std::make_unique<polynomial<T>>(terms);
+}
+
+// Those that are one word
+template <class T>
+std::unique_ptr<Function1Of<T>> named(const word& type)
+{
+    if (type == "zero") return std::make_unique<constant<T>>(all<T>(0));
+    if (type == "one") return std::make_unique<constant<T>>(all<T>(1));
+    return nullptr;
+}
+
+template <class T>
+std::unique_ptr<Function1Of<T>> fromDict(const dictionary& d, const word& caseFolder,
+                                         const dimensionSet& wanted)
+{
+    const word type = d.choose("type", types<T>());
+    if (auto f = named<T>(type)) return f;
+    if (type == "constant" || type == "uniform")
+        return std::make_unique<constant<T>>(d.get<T>("value", wanted));
+    if (type == "table") return tabulated(inUnits(rowsIn<T>("values", d), d, wanted), d);
+    if (type == "tableFile")
+        return tabulated(inUnits(listFileRows<T>(d, caseFolder), d, wanted), d);
     if (type == "csvFile")
-        return tabulated(inUnits(csvFileRows(d, caseFolder, wanted), d, wanted), d);
-    if (type == "polynomial") return std::make_unique<polynomial>(rowsIn("coeffs", d));
-    if (type == "scale") return std::make_unique<scaled>(d, caseFolder, wanted);
-    if (type.find("Ramp") != word::npos) return std::make_unique<ramp>(d);
-    return std::make_unique<wave>(d, caseFolder, wanted, type == "square");
+        return tabulated(inUnits(csvFileRows<T>(d, caseFolder, wanted), d, wanted), d);
+    if (type == "polynomial") return powers<T>(d.tokenList("coeffs"), d.where("coeffs"));
+    if (type == "scale") return std::make_unique<scaled<T>>(d, caseFolder, wanted);
+    if constexpr (std::is_same_v<T, scalar>)
+        if (type.find("Ramp") != word::npos) return std::make_unique<ramp>(d);
+    return std::make_unique<wave<T>>(d, caseFolder, wanted, type == "square");
+}
+
+bool isValue(const List<token>& tokens, bool ofVector)
+{
+    scalar v;
+    if (tokens.empty()) return false;
+    return tokens[0].is('[') || (ofVector ? tokens[0].is('(') : readNumber(tokens[0].text, v));
 }
 
 }  // namespace
 
-std::unique_ptr<Function1> Function1::New(const word& key, const dictionary& dict,
-                                          const word& caseFolder, const dimensionSet& wanted)
+template <class T>
+std::unique_ptr<Function1Of<T>> Function1Of<T>::New(const word& key, const dictionary& dict,
+                                                    const word& caseFolder,
+                                                    const dimensionSet& wanted)
 {
-    if (dict.isDict(key)) return fromDict(dict.subDict(key), caseFolder, wanted);
+    if (dict.isDict(key)) return fromDict<T>(dict.subDict(key), caseFolder, wanted);
 
+    constexpr bool ofVector = std::is_same_v<T, vector>;
     List<token> tokens = dict.tokenList(key);
-    scalar v;
-    if ((!tokens.empty() && readNumber(tokens[0].text, v)) ||
-        (!tokens.empty() && tokens[0].is('[')))
-        return std::make_unique<constant>(dict.get<scalar>(key, wanted));
+    if (isValue(tokens, ofVector)) return std::make_unique<constant<T>>(dict.get<T>(key, wanted));
     const word type = tokens.empty() ? "" : tokens[0].text;
     if (!tokens.empty()) tokens.erase(tokens.begin());
+    if (auto f = named<T>(type); f && tokens.empty()) return f;
     if (type == "table")
-        return std::make_unique<Function1Table>(inlineRows(tokens, dict.where(key)), "clamp",
-                                                dict.where(key));
-    if (type == "polynomial")
-        return std::make_unique<polynomial>(inlineRows(tokens, dict.where(key)));
-    if (type == "constant")
-        return std::make_unique<constant>(
-            valueReader(tokens, key, dict.where(key), wanted).whole<scalar>());
-    dict.fail(key, "'" + key +
-                       "' is a function of time: a number, 'constant v', "
-                       "'table ((t v) ...)', 'polynomial ((a n) ...)', or " +
-                       key + " { type ...; ... }. " + validWords("type", types));
+        return std::make_unique<Function1Table<T>>(inlineRows<T>(tokens, dict.where(key)), "clamp",
+                                                   dict.where(key));
+    if (type == "polynomial") return powers<T>(tokens, dict.where(key));
+    if (type == "constant" || type == "uniform")
+        return std::make_unique<constant<T>>(
+            valueReader(tokens, key, dict.where(key), wanted).template whole<T>());
+    const word v = ofVector ? "(x y z)" : "v";
+    dict.fail(key, "'" + key + "' is a function of time: " +
+                       (ofVector ? "a vector (x y z)" : "a number") + ", 'constant " + v +
+                       "', 'table ((t " + v + ") ...)', 'polynomial ((a n) ...)', or " + key +
+                       " { type ...; ... }. " + validWords("type", types<T>()));
 }
+
+template class Function1Of<scalar>;
+template class Function1Of<vector>;
 
 }  // namespace ispf

@@ -13,66 +13,62 @@ namespace ispf
 namespace
 {
 
-using row = Function1Table::row;
-
 // ((t v) (t v) ...), optionally with the count in front
-class rowReader
+template <class T>
+class rowReader : private valueReader
 {
 public:
-    rowReader(const List<token>& tokens, const fileLocation& where) : tokens_(tokens), where_(where)
+    rowReader(const List<token>& tokens, const fileLocation& where)
+        : valueReader(tokens, "table", where)
     {
     }
 
-    List<row> all()
+    List<Function1Row<T>> all()
     {
-        if (!done() && tokens_[i_].isPlain()) ++i_;
-        List<row> rows;
-        expect('(');
-        while (!done() && !tokens_[i_].is(')'))
+        if (!done() && peek().isPlain()) take();
+        List<Function1Row<T>> rows;
+        next('(');
+        while (!ends() && !at(')'))
         {
-            expect('(');
-            const fileLocation place = here();
-            const scalar t = number(), v = number();
-            rows.push_back({t, v, place});
-            expect(')');
+            next('(');
+            Function1Row<T> r;
+            r.where = here();
+            element(r.t);
+            element(r.value);
+            next(')');
+            rows.push_back(r);
         }
-        expect(')');
-        if (!done()) fail("nothing after it");
+        next(')');
+        if (!ends()) failRow("nothing after it");
         return rows;
     }
 
 private:
-    bool done() const { return i_ == tokens_.size() || tokens_[i_].kind == token::end; }
-    fileLocation here() const
+    bool ends() const { return done() || peek().kind == token::end; }
+    [[noreturn]] void failRow(const word& wanted) const
     {
-        fileLocation place = where_;
-        if (!done()) place.line = tokens_[i_].line, place.lineEnd = 0;
-        return place;
-    }
-    [[noreturn]] void fail(const word& wanted) const
-    {
-        throw fatalError("A table is written ((t value) (t value) ...): " + wanted +
+        const word value = std::is_same_v<T, vector> ? "(x y z)" : "value";
+        throw fatalError("A table is written ((t " + value + ") (t " + value + ") ...): " + wanted +
                              " is wanted, found " +
-                             (done() ? "its end." : tokens_[i_].described() + "."),
+                             (ends() ? "its end." : peek().described() + "."),
                          here());
     }
-    void expect(char c)
+    void next(char c)
     {
-        if (done() || !tokens_[i_].is(c)) fail(word(1, c));
-        ++i_;
+        if (ends() || !at(c)) failRow(word(1, c));
+        take();
     }
-    scalar number()
+    void element(scalar& v)
     {
-        scalar v;
-        if (done() || !tokens_[i_].isPlain() || !readNumber(tokens_[i_].text, v))
-            fail("a finite number");
-        ++i_;
-        return v;
+        if (ends() || !peek().isPlain() || !readNumber(peek().text, v)) failRow("a finite number");
+        take();
     }
-
-    const List<token>& tokens_;
-    fileLocation where_;
-    size_t i_ = 0;
+    void element(vector& v)
+    {
+        next('(');
+        for (scalar& x : v) element(x);
+        next(')');
+    }
 };
 
 word dataFile(const dictionary& dict, const word& caseFolder)
@@ -104,19 +100,14 @@ public:
         if (separator_.size() != 1) d.fail("separator", "The separator must be one character.");
     }
 
-    List<row> rows()
+    template <class T>
+    List<Function1Row<T>> rows()
     {
-        word refColumn = dict_.getOrDefault<word>("refColumn", "0");
-        auto values = dict_.getOrDefault<List<word>>("componentColumns", {"1"});
-        if (values.size() != 1) dict_.fail("componentColumns", "One column is wanted here.");
-        if (const auto both = dict_.getOrDefault<List<word>>("columns", {}); !both.empty())
-        {
-            if (both.size() != 2) dict_.fail("columns", "Two columns are wanted: (time value).");
-            refColumn = both[0], values[0] = both[1];
-        }
+        constexpr size_t n = sizeof(T) / sizeof(scalar);
+        const List<word> names = columnNames(n);
         const scalar scale = dict_.getOrDefault<scalar>("scale", 1);
-        List<row> rows;
-        scalar timeUnit = 1, valueUnit = 1;
+        List<Function1Row<T>> rows;
+        List<scalar> units(n + 1, 1.0);
         std::istringstream in(readText(path_));
         word line;
         for (label left = nHeader_; std::getline(in, line);)
@@ -126,19 +117,47 @@ public:
             if (left-- > 0) readHeader(line);
             else
             {
-                const size_t first = column("refColumn", refColumn);
-                const size_t second = column("componentColumns", values[0]);
+                List<size_t> columns;
+                for (const word& name : names)
+                    columns.push_back(
+                        column(columns.empty() ? "refColumn" : "componentColumns", name));
                 const List<word> cells = split(line);
-                const scalar t = cell(cells, first);
-                if (rows.empty())
-                    timeUnit = factor(first, dims::time), valueUnit = factor(second, wanted_);
-                rows.push_back({t * timeUnit, scale * cell(cells, second) * valueUnit, here()});
+                List<scalar> v;
+                for (const size_t c : columns) v.push_back(cell(cells, c));
+                for (size_t k = 0; k <= n && rows.empty(); ++k)
+                    units[k] =
+                        factor(columns[k], k == 0 ? dims::time : wanted_) * (k == 0 ? 1 : scale);
+                for (size_t k = 0; k <= n; ++k) v[k] *= units[k];
+                Function1Row<T>& r = rows.emplace_back();
+                r.t = v[0], r.where = here();
+                if constexpr (n == 3) r.value = {v[1], v[2], v[3]};
+                else r.value = v[1];
             }
         }
         return rows;
     }
 
 private:
+    // Of the time and of n components
+    List<word> columnNames(size_t n) const
+    {
+        const word value = n == 3 ? "x y z" : "value",
+                   three = n == 3 ? "Three columns are" : "One column is";
+        List<word> all = dict_.getOrDefault<List<word>>("columns", {});
+        if (!all.empty() && all.size() != n + 1)
+            dict_.fail("columns", (n == 3 ? "Four" : "Two") + word(" columns are wanted: (time ") +
+                                      value + ").");
+        const word time = dict_.getOrDefault<word>("refColumn", "0");
+        List<word> components;
+        for (size_t k = 1; k <= n; ++k) components.push_back(std::to_string(k));
+        components = dict_.getOrDefault<List<word>>("componentColumns", components);
+        if (components.size() != n)
+            dict_.fail("componentColumns", three + " wanted here: (" + value + ").");
+        if (!all.empty()) return all;
+        components.insert(components.begin(), time);
+        return components;
+    }
+
     fileLocation here() const { return {path_, "", line_, 0}; }
 
     List<word> split(const word& line) const
@@ -221,23 +240,29 @@ private:
 
 }  // namespace
 
-List<row> inlineRows(const List<token>& tokens, const fileLocation& where)
+template <class T>
+List<Function1Row<T>> inlineRows(const List<token>& tokens, const fileLocation& where)
 {
-    return rowReader(tokens, where).all();
+    return rowReader<T>(tokens, where).all();
 }
 
-List<row> listFileRows(const dictionary& dict, const word& caseFolder)
+template <class T>
+List<Function1Row<T>> listFileRows(const dictionary& dict, const word& caseFolder)
 {
     const word path = dataFile(dict, caseFolder);
-    return rowReader(tokenize(readText(path), path), {path, "", 1, 0}).all();
+    return rowReader<T>(tokenize(readText(path), path), {path, "", 1, 0}).all();
 }
 
-List<row> csvFileRows(const dictionary& dict, const word& caseFolder, const dimensionSet& wanted)
+template <class T>
+List<Function1Row<T>> csvFileRows(const dictionary& dict, const word& caseFolder,
+                                  const dimensionSet& wanted)
 {
-    return csvReader(dict, dataFile(dict, caseFolder), wanted).rows();
+    return csvReader(dict, dataFile(dict, caseFolder), wanted).rows<T>();
 }
 
-List<row> inUnits(List<row> rows, const dictionary& dict, const dimensionSet& wanted)
+template <class T>
+List<Function1Row<T>> inUnits(List<Function1Row<T>> rows, const dictionary& dict,
+                              const dimensionSet& wanted)
 {
     if (!dict.found("units")) return rows;
     valueReader in(dict.tokenList("units"), "units", dict.where("units"));
@@ -249,8 +274,21 @@ List<row> inUnits(List<row> rows, const dictionary& dict, const dimensionSet& wa
     const scalar v = in.readUnit(wanted);
     in.expect(')', form);
     in.expectEnd();
-    for (row& r : rows) r.t *= t, r.value *= v;
+    for (Function1Row<T>& r : rows) r.t *= t, r.value *= v;
     return rows;
 }
+
+template List<Function1Row<scalar>> inlineRows(const List<token>&, const fileLocation&);
+template List<Function1Row<scalar>> listFileRows(const dictionary&, const word&);
+template List<Function1Row<scalar>> csvFileRows(const dictionary&, const word&,
+                                                const dimensionSet&);
+template List<Function1Row<scalar>> inUnits(List<Function1Row<scalar>>, const dictionary&,
+                                            const dimensionSet&);
+template List<Function1Row<vector>> inlineRows(const List<token>&, const fileLocation&);
+template List<Function1Row<vector>> listFileRows(const dictionary&, const word&);
+template List<Function1Row<vector>> csvFileRows(const dictionary&, const word&,
+                                                const dimensionSet&);
+template List<Function1Row<vector>> inUnits(List<Function1Row<vector>>, const dictionary&,
+                                            const dimensionSet&);
 
 }  // namespace ispf

@@ -7,8 +7,15 @@
 namespace ispf
 {
 
-Function1Table::Function1Table(const List<row>& rows, const word& outOfBounds,
-                               const fileLocation& where)
+const List<word>& outOfBoundsWords()
+{
+    static const List<word> words = {"error", "warn", "clamp", "repeat"};
+    return words;
+}
+
+template <class T>
+Function1Table<T>::Function1Table(const List<row>& rows, const word& outOfBounds,
+                                  const fileLocation& where)
     : outOfBounds_(outOfBounds), where_(where)
 {
     if (rows.empty()) throw fatalError("The table has no rows.", where);
@@ -23,13 +30,8 @@ Function1Table::Function1Table(const List<row>& rows, const word& outOfBounds,
     }
 }
 
-const List<word>& Function1Table::outOfBoundsWords()
-{
-    static const List<word> words = {"error", "warn", "clamp", "repeat"};
-    return words;
-}
-
-scalar Function1Table::inside(scalar t) const
+template <class T>
+T Function1Table<T>::inside(scalar t) const
 {
     const size_t k = size_t(std::upper_bound(t_.begin(), t_.end(), t) - t_.begin());
     if (k == 0) return v_.front();
@@ -38,7 +40,8 @@ scalar Function1Table::inside(scalar t) const
     return (1 - w) * v_[k - 1] + w * v_[k];
 }
 
-scalar Function1Table::value(scalar t) const
+template <class T>
+T Function1Table<T>::value(scalar t) const
 {
     if ((t >= t_.front() && t <= t_.back()) || outOfBounds_ == "clamp") return inside(t);
     if (outOfBounds_ == "repeat")
@@ -56,5 +59,8 @@ scalar Function1Table::value(scalar t) const
             1);
     return inside(t);
 }
+
+template class Function1Table<scalar>;
+template class Function1Table<vector>;
 
 }  // namespace ispf

@@ -143,7 +143,14 @@ void argList::setCase()
     const word dir = optionOr("case", ".");
     if (!isFolder(dir)) throw fatalError("The case folder '" + dir + "' does not exist.");
     case_ = std::filesystem::canonical(dir).string();
-    ::setenv("FOAM_CASE", case_.c_str(), 1);
+    const word name = std::filesystem::path(case_).filename().string();
+    // as OpenFOAM's programs do, for macros
+    for (const auto& [variable, value] : {std::pair<const char*, const word&>{"FOAM_CASE", case_},
+                                          {"FOAM_CASENAME", name},
+                                          {"FOAM_EXECUTABLE", program_},
+                                          {"FOAM_APPLICATION", program_}})
+        ::setenv(variable, value.c_str(), 1);
+    ::setenv("FOAM_API", "1912", 0);  // whose dictionary language this is
 }
 
 const word& argList::option(const word& name) const

@@ -53,6 +53,7 @@ dictionaryEntry& dictionary::content::renewed(const token& key)
         old = &entries.back();
     }
     old->key = key.text;
+    old->quoted = key.kind == token::quoted;
     old->file = key.file;
     old->line = key.line;
     return *old;
@@ -110,6 +111,13 @@ dictionary dictionary::fromFileIfPresent(const word& path)
     if (isFile(path)) return fromFile(path);
     dictionary d;
     d.content_->path = path;
+    return d;
+}
+
+dictionary dictionary::fromPart(const word& text, const word& path)
+{
+    dictionary d;
+    dictionaryParser(*d.content_, true).parseText(text, path);
     return d;
 }
 

@@ -3,6 +3,7 @@
 #include "dictionaryParser.H"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace ispf
 {
@@ -29,6 +30,9 @@ List<token> dictionaryParser::operand(const token& name, source& in)
     const token t = in.take();
     if (t.kind == token::variable)
     {
+        const bool mayBeUnset = name.text == "ifeq" && t.text.find_first_of("${:") == word::npos;
+        if (mayBeUnset && !lookup(t.text, t) && !std::getenv(t.text.c_str()))
+            return wordsOf("", t);  // as in OpenFOAM
         const macro m = resolved(t);
         if (m.entry && m.entry->isDict())
             fail("#" + name.text + " compares values, and $" + t.text + " is a dictionary.", t);

@@ -35,6 +35,7 @@ void dictionaryParser::parseDirective(const token& name, source& in)
 {
     if (isOneOf(includes, name.text)) return include(name, in);
     if (isOneOf(conditions, name.text)) return parseCondition(name, in);
+    if (name.text == "includeFunc") return includeFunction(in);
     if (name.text == "remove") return removeEntries(in);
     if (name.text == "inputMode") return setInputMode(in);
     refuseDirective(name);
@@ -49,14 +50,9 @@ void dictionaryParser::refuseDirective(const token& name) const
             name);
     if (name.text == "calc" || name.text == "eval" || name.text == "neg")
         fail("#" + name.text + " gives a value; a keyword must stand before it.", name);
-    if (name.text == "includeFunc")
-        fail(
-            "#includeFunc is not known here. Write the function object itself, or #include its "
-            "file.",
-            name);
     List<word> valid = includes;
     valid.insert(valid.end(), conditions.begin(), conditions.end());
-    valid.insert(valid.end(), {"remove", "inputMode", "calc", "eval", "neg"});
+    valid.insert(valid.end(), {"includeFunc", "remove", "inputMode", "calc", "eval", "neg"});
     fail("Unknown directive #" + name.text + "." + didYouMean(name.text, valid) + "\n" +
              validWords("directive", valid),
          name);

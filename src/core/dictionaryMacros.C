@@ -127,7 +127,7 @@ void dictionaryParser::appendDict(const dictionary::content& from, const token& 
     for (const dictionaryEntry& e : from.entries)
     {
         token key = at;
-        key.kind = e.pattern ? token::quoted : token::plain, key.text = e.key;
+        key.kind = e.quoted ? token::quoted : token::plain, key.text = e.key;
         value.push_back(key);
         spend(4 + weightOf(e.value), at);
         if (e.isDict()) value.push_back(punctuation('{', at));
@@ -155,8 +155,14 @@ void dictionaryParser::parseMacroStatement(const token& name, source& in)
 {
     macro m;
     m.entry = lookup(expanded(name.text, name, false), name, true);
-    if (!m.entry) m = resolved(name);
-    else markRead(*m.entry);
+    if (m.entry) markRead(*m.entry);
+    else if (isPart_ && !in.peek().is('{') && !std::getenv(name.text.c_str()))
+    {
+        warning("$" + name.text + " names no entry above line " + std::to_string(name.line) +
+                " of " + *name.file + ": it is left out.");
+        return;
+    }
+    else m = resolved(name);
     if (m.entry && m.entry->isDict())
     {
         const dictionary copy = *m.entry->dict;  // it may enclose the place of use

@@ -46,19 +46,16 @@ void dictionaryParser::spend(size_t weight, const token& at)
 
 void dictionaryParser::parseFile(const word& path)
 {
-    const word text = readText(path);
-    if (files_.empty()) scopes_.front()->path = path;
-    files_.push_back(path);
-    source in(text, path);
-    parseStatements(in, nullptr);
-    files_.pop_back();
+    parseText(readText(path), path);
 }
 
 void dictionaryParser::parseText(const word& text, const word& name)
 {
-    scopes_.front()->path = name;
+    if (files_.empty()) scopes_.front()->path = name;
+    files_.push_back(name);
     source in(text, name);
     parseStatements(in, nullptr);
+    files_.pop_back();
 }
 
 List<token> dictionaryParser::parseValue(const word& text, const word& name)
@@ -77,17 +74,19 @@ void dictionaryParser::parseStatements(source& in, const token* opening)
     for (;;)
     {
         const token t = in.take();
-        const bool ends = t.kind == token::end || (t.is('}') && opening);
+        const bool ends = t.kind == token::end || (opening && t.is(opening->is('(') ? ')' : '}'));
         if (ends && in.conditions.size() > conditions)
             fail("The #" + in.conditions.back().text + " here has no #endif.",
                  in.conditions.back());
         if (t.kind == token::end && opening)
-            fail("The brace { opened here is never closed; the file ends at line " +
+            fail("The bracket " + opening->text +
+                     " opened here is never closed; the file ends at line " +
                      std::to_string(t.line) + ".",
                  *opening);
         if (ends) return;
         if (t.kind == token::directive) parseDirective(t, in);
         else if (t.kind == token::variable) parseMacroStatement(t, in);
+        else if (opensList(t, in)) parseList(t, in);
         else if (t.kind == token::plain || t.kind == token::quoted) parseEntry(t, in);
         else if (t.is('}')) fail("A closing brace } without an opening one.", t);
         else if (!t.is(';'))  // a stray one does no harm
@@ -124,7 +123,8 @@ dictionary dictionaryParser::newDict(const token& key)
 // stands in that
 void dictionaryParser::parseSubDict(const token& key, source& in)
 {
-    if (key.text == "FoamFile" && scopes_.size() == 1) return parseHeader(key, in);
+    const bool startsFile = scopes_.size() == 1 || files_.size() > 1;
+    if (key.text == "FoamFile" && startsFile) return parseHeader(key, in);
     const token opening = in.take();
     if (scopes_.size() > depthLimit)
         fail("Dictionaries are nested deeper than " + std::to_string(depthLimit) + " levels.", key);
@@ -163,6 +163,7 @@ void dictionaryParser::parseHeader(const token& key, source& in)
 void dictionaryParser::parseValueTokens(const token& key, source& in, List<token>& value)
 {
     List<token> open;
+    bool inBlock = false;  // Gauss multivariateSelection { fu vanLeer; };  a value ends with it
     for (;;)
     {
         const token t = in.take();
@@ -179,12 +180,14 @@ void dictionaryParser::parseValueTokens(const token& key, source& in, List<token
                          t.text + "'.",
                      t);
             open.pop_back();
+            if (open.empty() && inBlock && !in.peek().is(';'))
+                fail(
+                    "Unexpected { in the value of '" + key.text + "'; the ';' after it is missing.",
+                    key);
         }
         scalar count;
         const bool uniformList = !value.empty() && readNumber(value.back().text, count);
-        if (t.is('{') && open.empty() && !uniformList)
-            fail("Unexpected { in the value of '" + key.text + "'; the ';' after it is missing.",
-                 key);
+        if (open.empty()) inBlock = t.is('{') && !uniformList;
         if (t.is('(') || t.is('[') || t.is('{')) open.push_back(t);
         if (t.kind == token::variable) appendMacro(t, !open.empty() && open.back().is('{'), value);
         else if (t.kind == token::directive) appendValueDirective(key, t, in, value);
@@ -237,7 +240,7 @@ void dictionaryParser::merge(dictionary::content& to, const dictionary::content&
     for (const dictionaryEntry& f : from.entries)
     {
         token key;
-        key.kind = f.pattern ? token::quoted : token::plain;
+        key.kind = f.quoted ? token::quoted : token::plain;
         key.text = f.key, key.line = f.line, key.file = f.file;
         spend(8 + f.value.size(), key);
         dictionaryEntry* e = to.exact(f.key);

@@ -23,10 +23,11 @@ void dictionaryText::parse()
     top_.last = top_.valueLast = text_.size();
     parseItems(tokens, i, top_);
     if (tokens[i].kind != token::end)
-        throw fatalError("A closing brace } without an opening one.", tokens[i].where());
+        throw fatalError("A closing " + tokens[i].text + " without an opening one.",
+                         tokens[i].where());
 }
 
-// Entries up to the } of their dictionary, or to the end
+// Entries up to the bracket that closes their dictionary, or to the end
 void dictionaryText::parseItems(const List<token>& tokens, size_t& i, item& into)
 {
     if (into.depth > 200)
@@ -34,7 +35,7 @@ void dictionaryText::parseItems(const List<token>& tokens, size_t& i, item& into
     for (;;)
     {
         const token& t = tokens[i];
-        if (t.kind == token::end || t.is('}')) return;
+        if (t.kind == token::end || t.is('}') || t.is(')')) return;
         if (t.kind == token::directive)
         {
             const bool includes = t.text.find("nclude") != word::npos;
@@ -46,8 +47,37 @@ void dictionaryText::parseItems(const List<token>& tokens, size_t& i, item& into
                 ++i;
         }
         else if (t.is(';')) ++i;
-        else parseItem(tokens, i, into);
+        else if (!parseList(tokens, i, into)) parseItem(tokens, i, into);
     }
+}
+
+// 2(a { ... } b { ... }), or a list of anything else
+bool dictionaryText::parseList(const List<token>& tokens, size_t& i, item& into)
+{
+    scalar count;
+    const bool counted = tokens[i].isPlain() && readNumber(tokens[i].text, count);
+    const size_t open = i + counted;
+    if (!tokens[open].is('(')) return false;
+    item e;
+    const auto isHeader = [](const item& other) { return other.key == "FoamFile"; };
+    e.key = "entry" + std::to_string(into.items.size() -
+                                     std::count_if(into.items.begin(), into.items.end(), isHeader));
+    e.depth = into.depth + 1;
+    e.first = tokens[i].first, e.valueFirst = tokens[open].last;
+    if (counted) e.countFirst = tokens[i].first, e.countLast = tokens[i].last;
+    const token& next = tokens[open + 1];
+    e.isDict = (next.isPlain() || next.kind == token::quoted) && tokens[open + 2].is('{');
+    i = open + 1;
+    if (e.isDict) parseItems(tokens, i, e);
+    else
+        for (int depth = 1; tokens[i].kind != token::end; ++i)
+            if ((depth += tokens[i].is('(') - tokens[i].is(')')) == 0) break;
+    if (!tokens[i].is(')'))
+        throw fatalError("The bracket ( opened here is never closed.", tokens[open].where());
+    e.valueLast = tokens[i].first, e.last = tokens[i].last;
+    ++i;
+    into.items.push_back(std::move(e));
+    return true;
 }
 
 void dictionaryText::parseItem(const List<token>& tokens, size_t& i, item& into)
@@ -65,7 +95,7 @@ void dictionaryText::parseItem(const List<token>& tokens, size_t& i, item& into)
     {
         e.valueFirst = tokens[i++].last;
         parseItems(tokens, i, e);
-        if (tokens[i].kind == token::end)
+        if (!tokens[i].is('}'))
             throw fatalError("The brace { opened here is never closed.", next.where());
         e.valueLast = tokens[i].first, e.last = tokens[i++].last;
     }
@@ -124,6 +154,12 @@ bool dictionaryText::found(const word& name) const
     return find(name) != nullptr;
 }
 
+bool dictionaryText::isDict(const word& name) const
+{
+    const item* e = find(name);
+    return e && e->isDict;
+}
+
 void dictionaryText::failMissing(const word& name) const
 {
     const size_t dot = name.rfind('.');
@@ -169,6 +205,18 @@ List<word> dictionaryText::includes() const
     return includes_;
 }
 
+// A list whose number is not that of its entries
+const dictionaryText::item* dictionaryText::miscounted(const item& in) const
+{
+    for (const item& e : in.items)
+    {
+        const word count = text_.substr(e.countFirst, e.countLast - e.countFirst);
+        if (e.isDict && !count.empty() && count != std::to_string(e.items.size())) return &e;
+        if (const item* inner = miscounted(e)) return inner;
+    }
+    return nullptr;
+}
+
 void dictionaryText::replace(size_t first, size_t last, const word& by)
 {
     const word before = text_;
@@ -176,6 +224,12 @@ void dictionaryText::replace(size_t first, size_t last, const word& by)
     try
     {
         parse();
+        while (const item* list = miscounted(top_))
+        {
+            text_.replace(list->countFirst, list->countLast - list->countFirst,
+                          std::to_string(list->items.size()));
+            parse();
+        }
     }
     catch (const fatalError& e)
     {

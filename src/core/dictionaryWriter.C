@@ -14,7 +14,7 @@ constexpr size_t keyWidth = 16, indent = 4;
 
 word writtenKey(const dictionaryEntry& e)
 {
-    if (e.pattern || e.key.find_first_of("\"\n") != word::npos) return inQuotes(e.key);
+    if (e.quoted || e.key.find_first_of("\"\n") != word::npos) return inQuotes(e.key);
     const List<token> words = tokenize(e.key, "");
     scalar number;
     const bool plain = words[0].isPlain() && words[0].text == e.key && !readNumber(e.key, number);
@@ -54,15 +54,19 @@ word writtenValue(const List<token>& value)
 
 void dictionary::write(const dictionaryEntry& e, word& text, size_t level)
 {
-    const word margin(level * indent, ' '), key = writtenKey(e);
+    const word margin(level * indent, ' ');
+    const word key = e.named      ? writtenKey(e)
+                     : e.isDict() ? std::to_string(e.dict->allKeys().size())
+                                  : writtenValue(e.value);
     text += margin + key;
     if (e.isDict())
     {
-        text += "\n" + margin + "{\n";
+        text += "\n" + margin + (e.named ? "{\n" : "(\n");
         e.dict->write(text, level + 1);
-        text += margin + "}\n";
+        text += margin + (e.named ? "}\n" : ")\n");
         return;
     }
+    if (!e.named) return void(text += '\n');
     if (!e.value.empty()) text += word(key.size() < keyWidth ? keyWidth - key.size() : 1, ' ');
     text += writtenValue(e.value) + ";\n";
 }

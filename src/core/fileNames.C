@@ -116,17 +116,42 @@ word expandPath(const word& path)
     return out;
 }
 
-word etcFile(const word& name)
+namespace
 {
+
+List<fs::path> etcFolders()
+{
+    List<fs::path> folders;
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    if (error) return "";
     // Not the root itself: /etc belongs to the system
     for (fs::path p = program.parent_path(); p.has_relative_path(); p = p.parent_path())
-        if (const word file = (p / "etc" / name).string(); isFile(file)) return file;
-    const char* openfoam = std::getenv("WM_PROJECT_DIR");
-    const word file = openfoam ? word(openfoam) + "/etc/" + name : "";
-    return isFile(file) ? file : "";
+        folders.push_back(p / "etc");
+    if (const char* openfoam = std::getenv("WM_PROJECT_DIR"))
+        folders.push_back(fs::path(openfoam) / "etc");
+    return folders;
+}
+
+}  // namespace
+
+word etcFile(const word& name)
+{
+    for (const fs::path& folder : etcFolders())
+        if (const word file = (folder / name).string(); isFile(file)) return file;
+    return "";
+}
+
+word etcFileBelow(const word& folder, const word& name)
+{
+    for (const fs::path& etc : etcFolders())
+    {
+        List<word> files;
+        std::error_code error;
+        for (const auto& item : fs::recursive_directory_iterator(etc / folder, error))
+            if (item.path().filename() == name && isFile(item.path())) files.push_back(item.path());
+        if (!files.empty()) return *std::min_element(files.begin(), files.end());
+    }
+    return "";
 }
 
 }  // namespace ispf

@@ -121,7 +121,7 @@ token tokenReader::hash()
 {
     const int line = line_;
     if (at("#{")) return i_ += 2, make(token::verbatim, upTo("#}", "verbatim text #{"), line);
-    ++i_;
+    for (++i_; at(' ') || at('\t');) ++i_;
     const token name = make(token::directive, readWord(), line);
     if (name.text != "eval" && name.text != "calc") return name;
     const size_t behind = i_;

@@ -15,13 +15,34 @@ namespace
 {
 
 // An acceleration; what it has along z would be lost in two dimensions
-vector acceleration(const dictionary& dict, const word& key, int nDims)
+class planar : public vectorFunction1
 {
-    const vector a = dict.get<vector>(key, dims::acceleration);
-    if (nDims == 2 && a[2] != 0)
-        dict.fail(key, "The case is two-dimensional, in x and y: '" + key +
-                           "' must not have a component along z");
-    return a;
+public:
+    planar(const dictionary& dict, const word& key, const word& caseFolder)
+        : key_(key), where_(dict.where(key)), given_(New(key, dict, caseFolder, dims::acceleration))
+    {
+    }
+    vector value(scalar t) const override
+    {
+        const vector a = given_->value(t);
+        if (a[2] != 0)
+            throw fatalError("The case is two-dimensional, in x and y: '" + key_ +
+                                 "' must not have a component along z",
+                             where_);
+        return a;
+    }
+
+private:
+    word key_;
+    fileLocation where_;
+    std::unique_ptr<vectorFunction1> given_;
+};
+
+std::shared_ptr<vectorFunction1> acceleration(const dictionary& dict, const word& key,
+                                              const fsiCase& c)
+{
+    if (c.cloud.nDims == 2) return std::make_shared<planar>(dict, key, c.caseFolder());
+    return vectorFunction1::New(key, dict, c.caseFolder(), dims::acceleration);
 }
 
 }  // namespace
@@ -100,12 +121,22 @@ void fsiCase::readBodyForce()
     const dictionary perZone = physical.subOrEmptyDict("bodyForce");
     if (g.empty() && perZone.empty()) return;
     const scalar unit = g.found("dimensions") ? g.getUnit("dimensions", dims::acceleration) : 1;
-    const vector everywhere = g.empty() ? vector(0, 0, 0) : acceleration(g, "value", cloud.nDims);
-    bodyForce.assign(cloud.zones.size(), unit * everywhere);
+    if (!g.empty()) drives_.push_back({-1, unit, acceleration(g, "value", *this)});
     g.checkAllRead();
     for (const word& zone : perZone.keys())
-        bodyForce[cloud.zoneIndex(zone, perZone.where(zone))] +=
-            acceleration(perZone, zone, cloud.nDims);
+        drives_.push_back(
+            {cloud.zoneIndex(zone, perZone.where(zone)), 1, acceleration(perZone, zone, *this)});
+    bodyForce = bodyForceAt(time.value());
+}
+
+List<vector> fsiCase::bodyForceAt(scalar t) const
+{
+    if (drives_.empty()) return bodyForce;
+    List<vector> b(cloud.zones.size(), vector::Zero());
+    for (const drive& d : drives_)
+        for (size_t zone = 0; zone < b.size(); ++zone)
+            if (d.zone < 0 || d.zone == label(zone)) b[zone] += d.unit * d.acceleration->value(t);
+    return b;
 }
 
 void fsiCase::readKernel()
@@ -188,6 +219,7 @@ void fsiCase::updateNeighbours(scalar t0, scalar t1)
 {
     walls->setStep(t0, t1);
     sortParticles();
+    bodyForce = bodyForceAt(0.5 * (t0 + t1));
     walls->setFlags(cloud, rho, bodyForce);
     walls->updateGhosts(cloud);
     list.build(cloud, *kernel, walls->visible(cloud));

@@ -9,11 +9,11 @@ namespace
 
 // Over the fluid zones: a solid carries its own force, and alone it has nothing to float in.  Equal ones
 // give that value itself, without round-off.
-vector meanOfFluid(const fsiCase& c)
+vector meanOfFluid(const fsiCase& c, const List<vector>& bodyForce)
 {
     List<vector> a;
-    for (size_t zone = 0; zone < c.bodyForce.size(); ++zone)
-        if (c.cloud.zones[zone].phase == phaseType::fluid) a.push_back(c.bodyForce[zone]);
+    for (size_t zone = 0; zone < bodyForce.size(); ++zone)
+        if (c.cloud.zones[zone].phase == phaseType::fluid) a.push_back(bodyForce[zone]);
     if (a.empty()) return vector::Zero();
     vector excess = vector::Zero();
     for (const vector& other : a) excess += other - a[0];
@@ -22,26 +22,39 @@ vector meanOfFluid(const fsiCase& c)
 
 }  // namespace
 
-hydrostaticPart::hydrostaticPart(const fsiCase& c) : rho_(c.rho), a_(meanOfFluid(c))
+hydrostaticPart::hydrostaticPart(const fsiCase& c) : c_(c)
 {
-    List<vector> along;
     for (const structureImage& image : c.walls->images())
     {
         if (!image.R.isIdentity(1e-9)) continue;
         vector t = image.t;
-        for (const vector& e : along) t -= t.dot(e) * e;
-        if (t.norm() > 1e-6 * image.t.norm()) along.push_back(t.normalized());
+        for (const vector& e : cyclic_) t -= t.dot(e) * e;
+        if (t.norm() > 1e-6 * image.t.norm()) cyclic_.push_back(t.normalized());
     }
-    for (const vector& e : along) a_ -= a_.dot(e) * e;
+    before_ = during_ = after_ = part(c.bodyForce);
 }
 
-void hydrostaticPart::add(particleCloud& cloud, scalar sign) const
+vector hydrostaticPart::part(const List<vector>& bodyForce) const
 {
-    if (a_.isZero(0)) return;
+    vector a = meanOfFluid(c_, bodyForce);
+    for (const vector& e : cyclic_) a -= a.dot(e) * e;
+    return a;
+}
+
+void hydrostaticPart::setStep(scalar t0, scalar t1)
+{
+    during_ = part(c_.bodyForce);
+    before_ = part(c_.bodyForceAt(t0)), after_ = part(c_.bodyForceAt(t1));
+}
+
+void hydrostaticPart::add(particleCloud& cloud, const vector& toState, scalar sign) const
+{
+    if (toState.isZero(0) && during_.isZero(0)) return;
     for (label i = 0; i < cloud.n(); ++i)
     {
-        const scalar p = sign * rho_ * a_.dot(cloud.x[i].xyz());
-        cloud.Up[i][3] += p, cloud.pGiven[i] += p;
+        const vector x = cloud.x[i].xyz();
+        cloud.Up[i][3] += sign * c_.rho * toState.dot(x);
+        cloud.pGiven[i] += sign * c_.rho * during_.dot(x);
     }
 }
 

@@ -271,6 +271,7 @@ void monolithic::advance(scalar t, scalar dt, int depth)
     particleCloud& cloud = c_.cloud;
     const particleCloud before = cloud;
     c_.updateNeighbours(t, t + dt);
+    system_.setStep(t, t + dt);
     structureState();
     List<scalar> z;
     system_.hydrostatic().take(cloud);

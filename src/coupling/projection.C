@@ -147,6 +147,7 @@ void projection::step(scalar t, scalar dt)
 {
     printCourant(c_.cloud, dt);
     c_.updateNeighbours(t, t + dt);
+    hydrostatic_.setStep(t, t + dt);
     particleCloud& cloud = c_.cloud;
     const stencil s{cloud, c_.list, c_.correction};
     const List<vec4> before = mean_ ? cloud.Up : List<vec4>();

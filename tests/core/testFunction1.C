@@ -160,9 +160,57 @@ TEST_CASE("ramps")
     const auto at = [](const word& type, scalar t) {
         return made("f { type " + type + "; start 1; duration 2; }")->value(t);
     };
-    for (const char* type : {"linearRamp", "quadraticRamp", "halfCosineRamp"})
-        CHECK((at(type, 0.5) == 0 && at(type, 3.5) == 1));
+    for (const char* type :
+         {"linearRamp", "quadraticRamp", "halfCosineRamp", "quarterCosineRamp", "quarterSineRamp"})
+        CHECK((at(type, 0.5) == 0 && at(type, 3.5) == relative(1)));
     CHECK(at("linearRamp", 1.5) == 0.25);
     CHECK(at("quadraticRamp", 2) == 0.25);
     CHECK(at("halfCosineRamp", 2) == relative(0.5));
+    CHECK(at("quarterCosineRamp", 2) == relative(1 - std::sqrt(0.5)));
+    CHECK(at("quarterSineRamp", 2) == relative(std::sqrt(0.5)));
+    CHECK((made("f zero;")->value(1) == 0 && made("f { type one; }")->value(1) == 1));
+    CHECK((made("f uniform 3;")->value(1) == 3 && made("f uniform 3;")->value(2) == 3));
+}
+
+TEST_CASE("functions whose values are vectors")
+{
+    const temporaryFolder c;
+    const auto at = [&](const word& text, scalar t, const dimensionSet& wanted = dims::any) {
+        return vector(
+            vectorFunction1::New("f", dictionary::fromString(text, "test"), c.path, wanted)
+                ->value(t));
+    };
+    const auto isNear = [](const vector& a, const vector& b) {
+        return (a - b).norm() <= 1e-14 * (1 + b.norm());
+    };
+    CHECK(at("f (1 2 3);", 5) == vector(1, 2, 3));
+    CHECK(isNear(at("f (1 2 3) [mm];", 5, dims::length), {1e-3, 2e-3, 3e-3}));
+    CHECK(at("f constant (1 2 3);", 5) == vector(1, 2, 3));
+    CHECK(at("f { type uniform; value (1 2 3); }", 5) == vector(1, 2, 3));
+    CHECK((at("f zero;", 1) == vector(0, 0, 0) && at("f one;", 1) == vector(1, 1, 1)));
+    CHECK(isNear(at("f table ((0 (0 0 8)) (2 (2 -4 8)));", 0.5), {0.5, -1, 8}));
+    CHECK(isNear(at("f { type table; values ((0 (0 0 0)) (2 (2 4 6))); outOfBounds repeat; "
+                    "units ([ms] [cm]); }",
+                    2.5e-3, dims::length),
+                 {0.005, 0.01, 0.015}));
+    c.write("t", "2((0 (0 0 0)) (1 (3 2 1)))");
+    CHECK(isNear(at("f { type tableFile; file t; }", 0.5), {1.5, 1, 0.5}));
+    c.write("a.csv", "gz [mm/s^2], t [ms], gx [m/s^2], gy [m/s^2]\n0, 0, 0, 0\n4000, 10, 1, 2\n");
+    const word csv = "f { type csvFile; file \"a.csv\"; nHeaderLine 1; ";
+    CHECK(isNear(at(csv + "columns (t gx gy gz); }", 5e-3, dims::acceleration), {0.5, 1, 2}));
+    CHECK(
+        isNear(at(csv + "refColumn t; componentColumns (gx gy gz); scale 2; }", 5e-3), {1, 2, 4}));
+    CHECK(isNear(at("f { type sine; frequency 1; amplitude (1 0 2); level (0 3 0); }", 0.25),
+                 {1, 3, 2}));
+    CHECK(isNear(at("f polynomial (((1 0 2) 0) ((0 3 0) 2));", 2), {1, 12, 2}));
+    CHECK(isNear(at("f { type scale; scale { type linearRamp; duration 4; } value (4 0 8); }", 1),
+                 {1, 0, 2}));
+    CHECK_ERROR(at("f 3;", 0), "a vector (x y z), 'constant (x y z)', 'table ((t (x y z)) ...)'",
+                1);
+    CHECK_ERROR(at("f table ((0 1));", 0), "A table is written ((t (x y z))", 1);
+    CHECK_ERROR(at("f { type linearRamp; }", 0), "Unknown type 'linearRamp'", 1);
+    CHECK_ERROR(at(csv + "columns (t gx gy); }", 0), "Four columns are wanted: (time x y z)", 1);
+    CHECK_ERROR(at("f { type csvFile; file a.csv; componentColumns (1); }", 0),
+                "Three columns are wanted here: (x y z)", 1);
+    CHECK_ERROR(at("f (1 2 3) [mm];", 0, dims::velocity), "must have [0 1 -1", 1);
 }

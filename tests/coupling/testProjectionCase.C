@@ -216,6 +216,38 @@ TEST_CASE("a body force along a cyclic direction accelerates, all else of it is 
         CHECK((c.cloud.Up[i].xyz() - vector(0.2, 0, 0)).norm() < 1e-7);
 }
 
+// Velocity is the integral of what drives it, exactly for a ramp; p is that of the instant
+TEST_CASE("a body force that grows with time")
+{
+    for (const word coupling : {"projection", "monolithic"})
+    {
+        CAPTURE(coupling);
+        caseOnDisk files("rampedForce");
+        files.fill(16, 20, 0.02);
+        files.solution = "coupling " + coupling +
+                         "; monolithic { tolerance 1e-10; }"
+                         "solvers { p { solver PCG; preconditioner multigrid; tolerance 1e-10; } }";
+        files.boundary = R"(
+            sides  { type cyclic; point (0 0 0); separation (0.32 0 0); }
+            bottom { type symmetryPlane; point (0 0 0); normal (0 -1 0); }
+            top    { type symmetryPlane; point (0 0.4 0); normal (0 1 0); })";
+        files.g = "table ((0 (0 0 0)) (1 (20 -98.1 0)))";
+        files.write();
+        capturedLog log;
+        Time time(files.path());
+        fsiCase c(time);
+        const auto scheme = couplingScheme::New(c);
+        runSteps(c, *scheme, 0.01, 10);
+        const scalar y = c.cloud.x[0][1], p = c.cloud.Up[0][3];
+        for (label i = 0; i < c.cloud.n(); ++i)
+        {
+            CHECK((c.cloud.Up[i].xyz() - vector(0.1, 0, 0)).norm() < 1e-7);
+            CHECK(std::abs(c.cloud.Up[i][3] - p + c.rho * 9.81 * (c.cloud.x[i][1] - y)) <
+                  1e-6 * c.rho * 9.81 * 0.4);
+        }
+    }
+}
+
 TEST_CASE("the limit that rules is named")
 {
     caseOnDisk files("limits");

@@ -3,6 +3,7 @@
 #include "facetCrossings.H"
 #include "featureSize.H"
 #include "geometry/testShapes.H"
+#include "polygonFilling.H"
 #include "relative.H"
 #include "surfaceCapping.H"
 #include "surfaceRepair.H"
@@ -105,6 +106,42 @@ TEST_CASE("thinnest place and narrowest gap")
     CHECK(prism.thickness.size == relative(2, 1e-9));
 }
 
+TEST_CASE("the tightest rounding")
+{
+    CHECK(smallestRadius(sphere({1, 2, 3}, 0.5, 4), 0.1, false).size == relative(0.5, 0.15));
+    CHECK(!smallestRadius(box({0, 0, 0}, {3, 2, 1}), 0.1, false).found());
+    // a cylinder of many and of few facets; its far end is a sharp edge
+    for (const int n : {12, 100})
+        CHECK(smallestRadius(openTube({0, 0, 0}, {3, 4, 0}, 0.2, n, 7), 0.1, false).size ==
+              relative(0.2, 0.05));
+    // a groove: a quarter of a cylinder between two planes, seen from outside
+    triSurface groove;
+    groove.addPatch("groove");
+    List<vector> profile = {{-3, 0, 0}, {-2, 0, 0}, {-1, 0, 0}};
+    for (int k = 1; k <= 9; ++k)
+    {
+        const scalar a = k * M_PI / 18;
+        profile.emplace_back(-1 + std::sin(a), 1 - std::cos(a), 0);
+    }
+    profile.insert(profile.end(), {{0, 2, 0}, {0, 3, 0}});
+    for (size_t k = 0; k + 1 < profile.size(); ++k)
+        for (int m = 0; m < 6; ++m)
+        {
+            const vector up(0, 0, m), next(0, 0, m + 1), &a = profile[k], &b = profile[k + 1];
+            groove.add(a + up, b + up, b + next, 0), groove.add(a + up, b + next, a + next, 0);
+        }
+    groove.weld(1e-9);
+    const featureSize tight = smallestRadius(groove, 0.1, false);
+    CHECK(tight.size == relative(1, 0.05));
+    CHECK(std::hypot(tight.at[0] + 1, tight.at[1] - 1) == relative(1, 1e-9));
+    // the same outline as a prism in two dimensions: its ends do not count
+    CHECK(smallestRadius(groove, 0.1, true).size == relative(1, 0.05));
+    // round-off of coordinates is no curve
+    triSurface plate = box({0, 0, 0}, {3, 2, 1});
+    plate.add({0, 0, 1}, {3, 0, 1}, {1.5, 1e-6, 1 + 1e-7}, 0);
+    CHECK(!smallestRadius(plate, 0.1, false).found());
+}
+
 TEST_CASE("open ends become plane lids of the exact volume, in the order asked for")
 {
     const int n = 40;
@@ -150,10 +187,62 @@ TEST_CASE("caps that cannot be are refused with the measure")
     for (vector& x : bent.nodes)
         if (x[2] > 3.9) x[2] += 0.3 * x[0] * x[0];
     says(refusalOf(bent, {}, 0.05), "= 1.5 dx off the plane fitted to it");
-    triSurface ring = tube, inner = openTube({0, 0, 0}, {0, 0, 4}, 0.5, 24, 4);
-    inner.flip(), ring.append(inner);
-    says(refusalOf(ring, {}, 0.05), "surrounds another open end");
     says(refusalOf(box({0, 0, 0}, {1, 1, 1}), {}, 0.05), "has no open end");
+}
+
+// Outer side, lumen, and a cord in the lumen, whose three rims at each end lie within one another
+TEST_CASE("the wall of a thick vessel is capped by rings")
+{
+    const int n = 30, m = 17;
+    const auto polygon = [](int k) { return 0.5 * k * std::sin(2 * M_PI / k); };
+    for (const bool oriented : {true, false})
+        for (const bool cord : {true, false})
+        {
+            triSurface s = openTube({1, 2, 3}, {4, 2, 7}, 1, n, 3);
+            triSurface lumen = openTube({1, 2, 3}, {4, 2, 7}, 0.6, m, 4);
+            if (oriented) lumen.flip();
+            s.append(lumen);
+            const scalar ring = polygon(n) - 0.36 * polygon(m);
+            if (cord)
+                s.append(openTube({1, 2, 3}, {4, 2, 7}, 0.2, 5, 2)), capEnds(s, {}, 0.05, 0.1);
+            else capEnds(s, {{"outlet", {5, 2, 7}}, {"inlet", {0, 0, 0}}}, 0.05, 0.1);
+            orientOutward(s);
+            CHECK_MESSAGE(checkClosed(s).closed(), checkClosed(s).describe());
+            CHECK(s.volume() == relative(5 * (ring + cord * 0.04 * polygon(5)), 1e-9));
+            CHECK(s.patchSurface(cord ? "cap0" : "inlet").area() == relative(ring, 1e-9));
+        }
+}
+
+TEST_CASE("a plate with many holes is filled")
+{
+    List<List<vector>> rings = {{{0, 0, 0}, {9, 0, 0}, {9, 6, 0}, {0, 6, 0}}};
+    scalar area = 54;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 3; ++j)
+        {
+            List<vector> hole;
+            const int n = 3 + i + 2 * j;
+            for (int k = 0; k < n; ++k)
+            {
+                const scalar a = -2 * M_PI * k / n;
+                hole.emplace_back(1.5 + 2 * i + 0.7 * std::cos(a), 1 + 2 * j + 0.7 * std::sin(a),
+                                  0);
+            }
+            area -= 0.49 * 0.5 * n * std::sin(2 * M_PI / n);
+            rings.push_back(hole);
+        }
+    List<vector> points;
+    for (const List<vector>& ring : rings) points.insert(points.end(), ring.begin(), ring.end());
+    scalar filled = 0;
+    const auto triangles = fillPolygon(rings, {0, 0, 1});
+    for (const auto& [a, b, c] : triangles)
+    {
+        const vector n = 0.5 * (points[b] - points[a]).cross(points[c] - points[a]);
+        CHECK(n[2] > -1e-12);
+        filled += n[2];
+    }
+    CHECK(triangles.size() == points.size() + 2 * 12 - 2);
+    CHECK(filled == relative(area, 1e-12));
 }
 
 TEST_CASE("polygons of any shape are filled")

@@ -39,6 +39,18 @@ const dictionary* holderOf(const dictionary& d, const word& name, word& key)
     return nullptr;
 }
 
+word indented(const word& lines)
+{
+    word text;
+    for (size_t i = 0, e; i < lines.size(); i = e)
+    {
+        e = lines.find('\n', i) + 1;
+        text += "    " + lines.substr(i, e - i);
+    }
+    return text;
+}
+
+// What a has otherwise than b
 word differences(const dictionary& a, const dictionary& b)
 {
     word text;
@@ -49,13 +61,7 @@ word differences(const dictionary& a, const dictionary& b)
         {
             const word inner = differences(a.subDict(key), b.subDict(key));
             if (inner.empty()) continue;
-            text += key + "\n{\n";
-            for (size_t i = 0, e; i < inner.size(); i = e)
-            {
-                e = inner.find('\n', i) + 1;
-                text += "    " + inner.substr(i, e - i);
-            }
-            text += "}\n";
+            text += key + "\n{\n" + indented(inner) + "}\n";
         }
         else if (a.toString(key) != b.toString(key)) text += a.toString(key);
     }
@@ -70,11 +76,45 @@ List<word> wordsOf(const List<token>& tokens)
     return words;
 }
 
+// The same of what stands in the files, macros and directives as they are
+word textDifferences(const dictionaryText& a, const dictionaryText& b, const word& scope = "")
+{
+    word text;
+    for (const word& key : a.keys(scope))
+    {
+        const word name = scope.empty() ? key : scope + "." + key;
+        const auto words = [&](const dictionaryText& d) {
+            return wordsOf(tokenize(d.entry(name), ""));
+        };
+        if (b.found(name) && a.isDict(name) && b.isDict(name))
+        {
+            const word inner = textDifferences(a, b, name);
+            if (!inner.empty()) text += key + "\n{\n" + indented(inner) + "}\n";
+        }
+        else if (!b.found(name) || words(a) != words(b)) text += a.entry(name) + "\n";
+    }
+    return text;
+}
+
+word differences(const argList& args, const word& path, const word& other)
+{
+    if (!args.found("disableFunctionEntries"))
+        return differences(dictionary::fromPart(readText(path), path),
+                           dictionary::fromPart(readText(other), other));
+    const dictionaryText a(readText(path), path), b(readText(other), other);
+    word text;
+    const List<word> there = b.includes();
+    for (const word& file : a.includes())
+        if (std::find(there.begin(), there.end(), file) == there.end())
+            text += "#include " + inQuotes(file) + "\n";
+    return text + textDifferences(a, b);
+}
+
 // Does the file, read as programs do, hold the value? A macro, a file or a condition may stand in between.
 bool holds(const dictionaryText& text, const word& path, const word& name, const word& value)
 {
     if (value.find_first_of("$#{") != word::npos) return true;
-    const dictionary d = dictionary::fromString(text.text(), path);
+    const dictionary d = dictionary::fromPart(text.text(), path);
     word key;
     const dictionary* holder = holderOf(d, name, key);
     return holder && !holder->isDict(key) &&
@@ -107,7 +147,7 @@ void edit(const argList& args, dictionaryText& text, const word& path)
 
 void printExpanded(const argList& args, const word& path)
 {
-    const dictionary d = dictionary::fromFile(path);
+    const dictionary d = dictionary::fromPart(readText(path), path);
     if (!args.found("entry"))
     {
         if (args.found("keywords")) info() << join(d.allKeys(), "\n") << "\n";
@@ -149,6 +189,7 @@ int run(int argc, char** argv)
     args.addSwitch("remove", "remove the entry");
     args.addSwitch("includes", "list the files that it includes");
     args.addOption("diff", "dict", "print the entries that differ from those of another file");
+    args.addSwitch("disableFunctionEntries", "with -diff: macros and #include as they are written");
     if (!args.parse(argc, argv)) return 0;
     const word path = fromFolder(args.caseFolder(), args.argument(0));
     const int edits = args.found("set") + args.found("add") + args.found("remove");
@@ -156,7 +197,7 @@ int run(int argc, char** argv)
     if (args.found("diff"))
     {
         const word other = fromFolder(args.caseFolder(), args.option("diff"));
-        info() << differences(dictionary::fromFile(path), dictionary::fromFile(other));
+        info() << differences(args, path, other);
         return 0;
     }
     if (args.found("expand") && edits == 0) return printExpanded(args, path), 0;

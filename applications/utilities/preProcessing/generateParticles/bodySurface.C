@@ -181,6 +181,13 @@ private:
         };
         say("thinnest", sizes.thickness);
         say("gap", sizes.gap);
+        const featureSize radius = smallestRadius(s_, dx_, flat_);
+        if (radius.found())
+            line("rounding", "radius " + inSpacings(radius.size, dx_) + " at " + place(radius.at));
+        if (radius.size < 2 * dx_)
+            warning(name_ + " is rounded with a radius of " + inSpacings(radius.size, dx_) +
+                    " at " + place(radius.at) +
+                    ": particles follow no curve tighter than two spacings");
         if (sizes.thickness.size < 2 * dx_)
             warning(name_ + " encloses " + inSpacings(sizes.thickness.size, dx_) + " at " +
                     place(sizes.thickness.at) +
