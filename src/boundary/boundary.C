@@ -160,6 +160,20 @@ triSurface boundary::surfaceOf(const word& name, const particleCloud& cloud,
     return s.subset([&](label t) { return content_->group.beyond(s.centre(t)) < 1e-6 * cloud.dx; });
 }
 
+List<word> boundary::openFaces() const
+{
+    List<word> names;
+    for (const openFace& face : content_->openFaces) names.push_back(face.name());
+    return names;
+}
+
+const triSurface& boundary::openSurface(const word& name) const
+{
+    for (const openFace& face : content_->openFaces)
+        if (face.name() == name) return face.mesh().surface();
+    throw fatalError("There is no open face '" + name + "'. " + validWords("face", openFaces()));
+}
+
 bool boundary::isTwoSided(const word& name) const
 {
     return content_->walls.named(name).twoSided;

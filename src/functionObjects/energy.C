@@ -10,11 +10,12 @@
 //     dissipation   1/2 mu sum_i V sum_j (c_i + c_j) |F_ij| |u_i - u_j|^2, what the viscosity's own pair sum
 //                   (sphc::laplacian) takes out; pairs with images count half, the other half is the image's
 //     wallPower     what moving walls put in: minus the traction of surfaceFit times their velocity, of the step ahead
-//     dissipated, wallWork    their integrals since the case began, by the trapezoidal rule over the steps at which
-//                   it is executed
+//     openPower     what comes in through open faces: - int (p + 1/2 rho u^2 - rho b.x) u.n - u.tau.n dA, by surfaceFit
+//     dissipated, wallWork, openWork    their integrals since the case began, by the trapezoidal rule over the steps
+//                   at which it is executed
 //
-// kinetic + elastic + potential + dissipated - wallWork is constant but for what open faces bring in and what the
-// scheme itself takes: implicit steps damp by some dt/2 sum rho V (du/dt)^2.
+// kinetic + elastic + potential + dissipated - wallWork - openWork is constant but for what the scheme itself takes:
+// implicit steps damp by some dt/2 sum rho V (du/dt)^2.
 #include "functionObject.H"
 
 #include "loadedBody.H"
@@ -72,11 +73,13 @@ public:
                       {"Energies [J], powers [W] and their integrals [J]" +
                        word(c.cloud.nDims == 2 ? ", per metre" : "")},
                       {"kinetic", "elastic", "potential", "dissipation", "wallPower", "dissipated",
-                       "wallWork"},
+                       "wallWork", "openPower", "openWork"},
                       9))
     {
         for (const word& w : c.walls->movingWalls())
             walls_.push_back(loadedBody::wall(w, c, dict.where()));
+        for (const word& face : c.walls->openFaces())
+            openFaces_.push_back(loadedBody::openFace(face, c));
     }
 
     void execute() override { advance(); }
@@ -89,24 +92,27 @@ public:
         file_.begin(case_.time.value())
             << whole * kinetic
             << (case_.structure ? whole * case_.structure->energy(case_.cloud.x) : 0)
-            << whole * potential << now_.dissipation << now_.wallPower << dissipated_ << wallWork_;
+            << whole * potential << now_.dissipation << now_.wallPower << dissipated_ << wallWork_
+            << now_.openPower << openWork_;
         file_.endRow();
     }
 
     List<scalar> state() const override
     {
-        return {time_, now_.dissipation, now_.wallPower, dissipated_, wallWork_};
+        return {time_,     now_.dissipation, now_.wallPower, dissipated_,
+                wallWork_, now_.openPower,   openWork_};
     }
     void restore(const List<scalar>& s) override
     {
-        if (s.size() != 5) return;
-        time_ = s[0], now_ = {s[1], s[2]}, dissipated_ = s[3], wallWork_ = s[4], known_ = true;
+        if (s.size() != 7) return;
+        time_ = s[0], now_ = {s[1], s[2], s[5]}, known_ = true;
+        dissipated_ = s[3], wallWork_ = s[4], openWork_ = s[6];
     }
 
 private:
     struct powers
     {
-        scalar dissipation = 0, wallPower = 0;
+        scalar dissipation = 0, wallPower = 0, openPower = 0;
     };
 
     std::pair<scalar, scalar> mechanical() const
@@ -143,8 +149,34 @@ private:
                     p.wallPower -=
                         onWall.dot(case_.walls->wallVelocity(wall.name(), side.facets[k].centre));
                 }
+        p.openPower = openPower();
         const scalar whole = case_.walls->symmetryFactor();
-        return {whole * p.dissipation, whole * p.wallPower};
+        return {whole * p.dissipation, whole * p.wallPower, whole * p.openPower};
+    }
+
+    scalar openPower() const
+    {
+        const vector b = fluidForce();
+        scalar power = 0;
+        for (const loadedBody& face : openFaces_)
+            for (const loadedBody::side& side : face.sides())
+                for (size_t k = 0; k < side.facets.size(); ++k)
+                {
+                    const auto& [centre, area] = side.facets[k];
+                    const fluidAt& f = side.fluid[k];
+                    if (!f.covered) continue;
+                    const scalar head = f.p + case_.rho * (0.5 * f.U.squaredNorm() - b.dot(centre));
+                    power -= head * f.U.dot(area) - f.U.dot(viscousStress(f, case_.mu) * area);
+                }
+        return power;
+    }
+
+    // What pushes the fluid [m/s^2]
+    vector fluidForce() const
+    {
+        for (size_t zone = 0; zone < case_.bodyForce.size(); ++zone)
+            if (case_.cloud.zones[zone].phase == phaseType::fluid) return case_.bodyForce[zone];
+        return vector::Zero();
     }
 
     void advance()
@@ -156,14 +188,15 @@ private:
         {
             dissipated_ += 0.5 * (t - time_) * (now_.dissipation + next.dissipation);
             wallWork_ += 0.5 * (t - time_) * (now_.wallPower + next.wallPower);
+            openWork_ += 0.5 * (t - time_) * (now_.openPower + next.openPower);
         }
         now_ = next, time_ = t, known_ = true;
     }
 
     dataFile file_;
-    List<loadedBody> walls_;
+    List<loadedBody> walls_, openFaces_;
     powers now_;
-    scalar time_ = 0, dissipated_ = 0, wallWork_ = 0;
+    scalar time_ = 0, dissipated_ = 0, wallWork_ = 0, openWork_ = 0;
     bool known_ = false;
 };
 

@@ -60,6 +60,14 @@ loadedBody loadedBody::surface(const word& name, const fsiCase& c, const fileLoc
     return b;
 }
 
+loadedBody loadedBody::openFace(const word& face, const fsiCase& c)
+{
+    loadedBody b(face, c);
+    b.rest_ = c.walls->openSurface(face);
+    if (!b.rest_.empty()) b.parts_.push_back({nullptr, allFluid(c.cloud)});
+    return b;
+}
+
 loadedBody loadedBody::solid(const word& zone, const fsiCase& c, const fileLocation& where)
 {
     loadedBody b(zone, c);

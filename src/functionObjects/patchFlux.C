@@ -4,8 +4,9 @@
 //     outflow { type patchFlux; patch outside; }      // a patch of constant/boundary
 //     nozzle  { type patchFlux; surface nozzleExit; zones (chamber); }   // any surface in the fluid
 //
-// patch: what has crossed it by the boundary's own books, whole particles or a moving wall's sweep:
-//     `volume` since the case began and `flux`, its mean rate since the row before; out is positive.
+// patch: what crosses it by the boundary's own books, the sweep of a moving wall and the velocity on an open face:
+//     `flux` in the last step and `volume` since the case began, out is positive; and the particles that the modelled
+//     part of an open face has `created` and `deleted`.
 // surface: the integral of U.n over constant/triSurface/<surface>.stl, U fitted to the particles at
 //     the middle of each triangle; positive along the triangles' normals.  `covered` is the share of
 //     its area that particles are near enough to; the rest counts nothing.
@@ -29,43 +30,27 @@ public:
         : functionObject(name, dict, c),
           patch_(dict.get<word>("patch")),
           file_(table("patchFlux.dat", {"Volume through patch " + patch_ + ", out positive"},
-                      {"flux", "volume"}, 9))
+                      {"flux", "volume", "created", "deleted"}, 9))
     {
         List<word> names;
         for (const patchBalance& b : c.walls->balance()) names.push_back(b.name);
         if (std::find(names.begin(), names.end(), patch_) == names.end())
             dict.fail("patch", "There is no patch '" + patch_ + "'. " + validWords("patch", names));
-        lastTime_ = c.time.value(), lastVolume_ = volume();
     }
 
     void write() override
     {
-        const scalar now = case_.time.value(), v = volume();
-        if (now > lastTime_) flux_ = (v - lastVolume_) / (now - lastTime_);
-        file_.begin(now) << flux_ << v;
+        const scalar whole = case_.walls->symmetryFactor();
+        for (const patchBalance& b : case_.walls->balance())
+            if (b.name == patch_)
+                file_.begin(case_.time.value())
+                    << whole * b.flux << whole * (b.volume - b.swept) << b.created << b.deleted;
         file_.endRow();
-        lastTime_ = now, lastVolume_ = v;
-    }
-
-    List<scalar> state() const override { return {lastTime_, lastVolume_, flux_}; }
-    void restore(const List<scalar>& s) override
-    {
-        if (s.size() == 3) lastTime_ = s[0], lastVolume_ = s[1], flux_ = s[2];
     }
 
 private:
-    scalar volume() const
-    {
-        for (const patchBalance& b : case_.walls->balance())
-            if (b.name == patch_)
-                return -case_.walls->symmetryFactor() *
-                       (b.swept + (b.created - b.deleted) * case_.cloud.volume());
-        return 0;
-    }
-
     word patch_;
     dataFile file_;
-    scalar lastTime_ = 0, lastVolume_ = 0, flux_ = 0;
 };
 
 class sampledFlux : public functionObject
