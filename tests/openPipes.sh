@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A pressure drives fluid through pipes to and fro, ten times, through faces flat, oblique and curved: each keeps its
-# volume within 0.5 %, as the mean of the last period.  Prints what it is
+# volume within 0.5 %, as the mean of the last period; and a flow rate is given.  Prints what it is
 set -uo pipefail
 . "$(dirname "$0")/cases/functions"
 cd "$scratch" || exit 1
@@ -66,4 +66,26 @@ lid "-9e-3 -9e-3 22e-3" "9e-3 9e-3 25e-3"
 boundary="$boundary sx { type symmetryPlane; point (0 0 0); normal (-1 0 0); } sy { type symmetryPlane; point (0 0 0); normal (0 -1 0); }"
 echo "rho 1000; mu 0.1;" > constant/physicalProperties
 oscillate "curved" "sqrt(x*x + y*y + z*z) - 24" 0.4 20
+
+# a flow rate into an oblique pipe of 12 dx: Poiseuille's flow, all the way and at once
+rm -rf 0 0.* [1-9]* postProcessing
+echo "dx 1e-3; zones { water { phase fluid; shape cylinder; point1 (0 0 0); point2 (10e-3 0 15e-3); radius 6e-3; } }
+    patches { in { box ((-6e-3 -7e-3 -6e-3) (6e-3 7e-3 5e-3)); } out { box ((5e-3 -7e-3 10e-3) (16e-3 7e-3 19e-3)); } }" > system/particleDict
+echo "walls { type wall; } in { type open; flowRate 1000 [mm^3/s]; profile parabolic; } out { type open; p 0; }" > constant/boundary
+echo "rho 1000; mu 0.05;" > constant/physicalProperties
+echo "startTime 0; endTime 0.4; deltaT 5e-3; writeControl timeStep; writeInterval 80;" > system/controlDict
+place; solved
+grep "^patch flux" log | tail -n 1 | awk '{ for (k = 1; k < NF; ++k) f[$k] = $(k + 1) + 0
+    printf "    inlet: %.5g m3/s in, %.5g m3/s out\n", -f["in"], f["out"]
+    exit !(f["in"] == -1e-6 && f["out"] > 0.98e-6 && f["out"] < 1.02e-6) }' || fail "an inlet: $(grep '^patch flux' log | tail -n 1)"
+for field in Points PointData/U; do
+    h5dump -m %.12g -y -w 1 -d "/VTKHDF/$field" 0.4/particles.hdf | tr -d ' ,' | grep -E '^[-0-9.e+]+$' | paste - - -
+done | awk -v R=6e-3 -v Q=1e-6 'BEGIN { L = sqrt(325); a = 10/L; c = 15/L; U = Q/(3.14159265*R*R) }
+    { x[NR] = $1; y[NR] = $2; z[NR] = $3 }
+    END { for (i = 1; i <= NR/2; ++i) {
+              s = a*x[i] + c*z[i]; if (s < 4e-3 || s > 14e-3) continue
+              r2 = (x[i] - s*a)^2 + y[i]^2 + (z[i] - s*c)^2; j = i + NR/2; e = 2*U*(1 - r2/R^2)
+              off = sqrt((x[j] - e*a)^2 + y[j]^2 + (z[j] - e*c)^2)/(2*U); sum += off*off; ++n; if (off > most) most = off }
+          printf "    inlet: off Poiseuille by %.3f of its maximum at most, %.3f rms\n", most, sqrt(sum/n)
+          exit !(n > 1000 && most < 0.08 && sqrt(sum/n) < 0.03) }' || fail "an inlet: the profile"
 [ $failures = 0 ]

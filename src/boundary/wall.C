@@ -30,7 +30,8 @@ wall wall::New(const word& name, const dictionary& dict, const word& caseFolder)
     w.motion = wallMotion(dict, caseFolder);
     w.twoSided = dict.getOrDefault("twoSided", false);
     w.clamps = dict.getOrDefault<List<word>>("clamps", {});
-    if (!w.clamps.empty()) w.clampDepth = dict.getInRangeOrDefault("clampDepth", 0.1, 100, 1);
+    if (!w.clamps.empty())
+        w.clampDepth = dict.getInRangeOrDefault("clampDepth", 0.1, 100, w.clampDepth);
     if (w.slip && w.motion.slides())
         dict.fail("slip",
                   "a wall that slides in itself drags nothing along with 'slip yes': leave "

@@ -181,6 +181,21 @@ void enclosedFluid::removeMean(Counts&& counts, label n, List<scalar>& rows) con
     });
 }
 
+void enclosedFluid::keepLevel(const particleCloud& cloud, List<scalar>& z) const
+{
+    const label others = label(bodies_.size());  // all that no free body has, solids as well
+    List<scalar> change(others + 1, 0), n(others + 1, 0);
+    const auto groupOf = [&](label i) {
+        const label b = cloud.isFluid(i) ? bodyOf_[cloud.zone[i]] : -1;
+        return b >= 0 && bodies_[b].free ? b : others;
+    };
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        change[groupOf(i)] += z[4 * i + 3] - cloud.Up[i][3], n[groupOf(i)] += 1;
+    if (!allFree_) change[others] = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+        if (const label k = groupOf(i); n[k] > 0) z[4 * i + 3] -= change[k] / n[k];
+}
+
 void enclosedFluid::balance(List<scalar>& rows) const
 {
     const particleCloud& cloud = c_.cloud;

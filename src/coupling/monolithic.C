@@ -225,6 +225,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
         std::sqrt(scalar(cloud.n())) * std::max(absTolerance_ * velocityScale(), rounding(dt, z));
     FGMRES solver(controls, "Up", maxIter_);
     const solverPerformance result = solver.solve(system_, preconditioner_, b, z);
+    system_.enclosed().keepLevel(cloud, z);
     result.print();
     printContinuityErrors(b, z, dt);
     // measured: a tenth of the tolerance's digits still steps stably, no reduction at all does not
