@@ -142,6 +142,18 @@ for cap in in out; do
 done
 steps "a capped tube"
 
+vessel wall 'Cylinder(1) = {0, 0, 0, 0, 0, 16, 5}; Cylinder(2) = {0, 0, 0, 0, 0, 16, 3};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+ends() = Surface In BoundingBox {-6, -6, -0.1, 6, 6, 0.1}; ends() += Surface In BoundingBox {-6, -6, 15.9, 6, 6, 16.1};'
+dict "$stl capping { in { near (0 0 0); } out { near (0 0 0.016); } }"
+sed -i 's/lattice/bodyFitted/' system/particleDict
+accepted "a thick vessel's wall" "capped *in at .* m = (10|9.99) dx across" "capped *out at " "thinnest *0.00(19|2)"
+volumeIs -1.5 0.1 8.04248e-7 "a thick vessel's wall"    # pi (5^2 - 3^2) 16
+printf 'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 10, 10, 10}; Fillet{1}{1}{0.5}\n' > constant/rounded.geo
+echo "walls { type wall; }" > constant/boundary
+dict 'file "constant/rounded.geo"; unit mm;'
+accepted "a rounded edge" "rounding *radius 0.000[45][0-9]* m = 0.[45][0-9]* dx at" "is rounded with a radius of"
+
 vessel fork 'Cylinder(1) = {0, 0, 0, 0, 0, 16, 5}; Cylinder(2) = {0, 0, 14, 8, 0, 14, 3.5};
 Cylinder(3) = {0, 0, 14, -8, 0, 14, 3.5}; BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2, 3}; Delete; };
 ends() = Surface In BoundingBox {-6, -6, -0.1, 6, 6, 0.1}; ends() += Surface In BoundingBox {4, -4, 25, 12, 4, 31};

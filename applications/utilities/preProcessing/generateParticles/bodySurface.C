@@ -59,8 +59,9 @@ private:
     {
         const boundBox box = s_.bounds();
         const vector size = box.max - box.min;
-        line("box", place(box.min) + " to " + place(box.max) + " m: " + str(size[0] / dx_, 3) +
-                        " x " + str(size[1] / dx_, 3) + " x " + str(size[2] / dx_, 3) + " dx");
+        line("box", place(box.min, 1e-9 * dx_) + " to " + place(box.max, 1e-9 * dx_) +
+                        " m: " + str(size[0] / dx_, 3) + " x " + str(size[1] / dx_, 3) + " x " +
+                        str(size[2] / dx_, 3) + " dx");
         if (!(size.maxCoeff() < mostAcross * dx_))
             throw fatalError(name_ + " measures " + inSpacings(size.maxCoeff(), dx_) +
                              " across. Are dx and the unit right?");
@@ -177,24 +178,25 @@ private:
     {
         const featureSizes sizes = smallestFeatures(s_, dx_, flat_);
         const auto say = [&](const char* what, const featureSize& f) {
-            if (f.found()) line(what, inSpacings(f.size, dx_) + " at " + place(f.at));
+            if (f.found()) line(what, inSpacings(f.size, dx_) + " at " + place(f.at, 1e-9 * dx_));
         };
         say("thinnest", sizes.thickness);
         say("gap", sizes.gap);
         const featureSize radius = smallestRadius(s_, dx_, flat_);
         if (radius.found())
-            line("rounding", "radius " + inSpacings(radius.size, dx_) + " at " + place(radius.at));
+            line("rounding",
+                 "radius " + inSpacings(radius.size, dx_) + " at " + place(radius.at, 1e-9 * dx_));
         if (radius.size < 2 * dx_)
             warning(name_ + " is rounded with a radius of " + inSpacings(radius.size, dx_) +
-                    " at " + place(radius.at) +
+                    " at " + place(radius.at, 1e-9 * dx_) +
                     ": particles follow no curve tighter than two spacings");
         if (sizes.thickness.size < 2 * dx_)
             warning(name_ + " encloses " + inSpacings(sizes.thickness.size, dx_) + " at " +
-                    place(sizes.thickness.at) +
+                    place(sizes.thickness.at, 1e-9 * dx_) +
                     ", its thinnest place: fewer than two particles across resolve nothing there");
         if (sizes.gap.size < dx_)
             warning(name_ + " leaves a gap of " + inSpacings(sizes.gap.size, dx_) + " at " +
-                    place(sizes.gap.at) +
+                    place(sizes.gap.at, 1e-9 * dx_) +
                     ": particles on both sides will feel each other across it");
     }
 
