@@ -104,8 +104,9 @@ TEST_CASE("a guarded job may crash, leave or hang")
         },
         limits);
     CHECK(has(error, "the job did not finish within 0.2 s and was stopped. Wait longer."));
+    limits.seconds = 1;
     CHECK(runGuarded("the job", limits, [](packer& out, const grantTime& grant) {
-              grant(60), ::usleep(400000), out.put(1);
+              grant(60), ::usleep(1200000), out.put(1);
           }).get<int>() == 1);
 }
 
