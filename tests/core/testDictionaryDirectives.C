@@ -241,3 +241,20 @@ TEST_CASE("what a few lines can unfold to is bounded")
     CHECK(!d.found(word(2000, 'a')));
     CHECK_ERROR(parsed("\"((a{1,200}){1,200}){1,200}\" 1;"), "not a regular expression", 1);
 }
+
+TEST_CASE("what OpenFOAM's tutorials write beside")
+{
+    const auto d = dictionary::fromString(
+        "div(phi,Yi) Gauss multivariateSelection { fu vanLeer; };\n"
+        "#ifeq $NO_SUCH_VARIABLE \"\"\nx 1;\n#else\nx 2;\n#endif\n\"U\" 3;\n");
+    CHECK(d.valueText("div(phi,Yi)") == "Gauss multivariateSelection { fu vanLeer ; }");
+    CHECK(d.get<label>("x") == 1);
+    CHECK(d.toString("U") == "\"U\"             3;\n");
+    CHECK(d.get<label>("U") == 3);
+    CHECK_ERROR(dictionary::fromString("a 1\nb { c 2; }\nd 3;"), "Unexpected { in the value of 'a'",
+                1);
+    const temporaryFolder c;
+    c.write("part", "FoamFile { version 2.0; class dictionary; }\nb 1;\n");
+    const auto e = dictionary::fromString("a\n{\n    # include \"part\"\n}\n", c.path + "/whole");
+    CHECK(e.subDict("a").keys() == List<word>{"b"});
+}
