@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "guardedProcess.H"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -32,21 +34,41 @@ scalar now()
     throw fatalError("Cannot " + what + ": " + std::strerror(errno));
 }
 
-// In memory, without a name: it is gone with the last process that has it open
-class namelessFile
+// A file in memory would be subject to limits on the size of files, a disk may be full
+class pipeTo
 {
 public:
-    namelessFile() : file_(memfd_create("ispf", MFD_CLOEXEC))
+    pipeTo()
     {
-        if (file_ < 0) cannot("create a file in memory");
+        if (pipe2(ends_, O_CLOEXEC) != 0) cannot("open a pipe");
+        fcntl(ends_[0], F_SETFL, O_NONBLOCK);
+        fcntl(ends_[1], F_SETPIPE_SZ, 1 << 20);  // fewer turns; it works without
     }
-    namelessFile(const namelessFile&) = delete;
-    ~namelessFile() { close(file_); }
+    pipeTo(const pipeTo&) = delete;
+    ~pipeTo() { closeOwn(), close(ends_[0]); }
 
-    operator int() const { return file_; }
+    int entry() const { return ends_[1]; }
+    int exit() const { return ends_[0]; }
+    void closeOwn()  // the entry, once another process has it
+    {
+        if (ends_[1] >= 0) close(ends_[1]);
+        ends_[1] = -1;
+    }
+    // What is there, into text; false at the end
+    bool drain(word& text)
+    {
+        for (;;)
+        {
+            const ssize_t n = read(ends_[0], block_.data(), block_.size());
+            if (n > 0) text.append(block_.data(), size_t(n));
+            else if (n == 0 || (errno != EAGAIN && errno != EINTR)) return false;
+            else return true;
+        }
+    }
 
 private:
-    int file_;
+    int ends_[2] = {-1, -1};
+    List<char> block_ = List<char>(1 << 18);
 };
 
 enum class outcome : int
@@ -62,6 +84,7 @@ struct sharedPage
 {
     volatile scalar deadline;  // the moment until which the job may run
     volatile outcome result;
+    volatile size_t textAt;  // where its own words begin in what it handed over
 };
 
 class sharedMemory
@@ -95,38 +118,34 @@ word lastLines(const word& text, int count)
     return text.substr(from, end - from);
 }
 
-// In place of what the job has handed over
-outcome say(int file, const word& text, outcome how)
+outcome carryOut(int to, const sharedMemory& shared, const std::function<void(packer&)>& job)
 {
-    if (ftruncate(file, 0) != 0 || lseek(file, 0, SEEK_SET) != 0) return outcome::none;
-    const ssize_t written = write(file, text.data(), text.size());
-    return written == ssize_t(text.size()) ? how : outcome::none;
-}
-
-outcome carryOut(int file, const std::function<void(packer&)>& job)
-{
+    packer out(to);
+    const auto say = [&](const word& text, outcome how) {
+        shared->textAt = out.endWith(text);
+        return how;
+    };
     try
     {
-        packer out(file);
         job(out);
         out.flush();
         return outcome::done;
     }
     catch (const fatalError& error)
     {
-        return say(file, error.what(), outcome::refused);
+        return say(error.what(), outcome::refused);
     }
     catch (const std::bad_alloc&)
     {
-        return say(file, "out of memory", outcome::failed);
+        return say("out of memory", outcome::failed);
     }
     catch (const std::exception& error)
     {
-        return say(file, error.what(), outcome::failed);
+        return say(error.what(), outcome::failed);
     }
     catch (const std::string& error)  // as gmsh throws
     {
-        return say(file, error, outcome::failed);
+        return say(error, outcome::failed);
     }
 }
 
@@ -158,16 +177,23 @@ void prepareChild(int log, const processLimits& limits)
     dup2(log, STDOUT_FILENO), dup2(log, STDERR_FILENO);
 }
 
-constexpr auto longestPause = std::chrono::microseconds(5000);
+constexpr int glance = 50;          // [ms] between looks at the clock
+constexpr size_t lastWords = 8192;  // [byte] of what it prints that are kept
 
-// False if it had to be killed
-bool waitFor(pid_t pid, const sharedMemory& shared, int& status)
+// Takes in what the process prints and hands over until it has ended; false if it had to be killed
+bool waitFor(pid_t pid, const sharedMemory& shared, pipeTo& log, word& printed, pipeTo& result,
+             word& handed, int& status)
 {
-    // Soon at first: a small file takes less than a millisecond
-    for (auto pause = std::chrono::microseconds(100);; pause = std::min(2 * pause, longestPause))
+    for (bool open = true;;)
     {
+        pollfd ends[] = {{result.exit(), POLLIN, 0}, {log.exit(), POLLIN, 0}};
+        if (open) poll(ends, 2, glance);  // when the result's end is reached it is about to end
+        else std::this_thread::sleep_for(std::chrono::microseconds(100));
+        open = open && result.drain(handed);
+        log.drain(printed);
+        if (printed.size() > 2 * lastWords) printed.erase(0, printed.size() - lastWords);
         const pid_t ended = waitpid(pid, &status, WNOHANG);
-        if (ended == pid) return true;
+        if (ended == pid) return result.drain(handed), log.drain(printed), true;
         if (ended < 0 && errno != EINTR) cannot("wait for a process");
         if (now() > shared->deadline)
         {
@@ -175,7 +201,6 @@ bool waitFor(pid_t pid, const sharedMemory& shared, int& status)
             while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {}
             return false;
         }
-        std::this_thread::sleep_for(pause);
     }
 }
 
@@ -187,10 +212,10 @@ word howItEnded(int status)
     return "ended its process with status " + std::to_string(WEXITSTATUS(status));
 }
 
-word lastSaid(int log)
+word lastSaid(const word& printed)
 {
-    const word printed = lastLines(unpacker::ofFile(log).rest(), 5);
-    return printed.empty() ? word(" It said nothing.") : " The last it said:\n" + printed;
+    const word last = lastLines(printed, 5);
+    return last.empty() ? word(" It said nothing.") : " The last it said:\n" + last;
 }
 
 }  // namespace
@@ -198,7 +223,8 @@ word lastSaid(int log)
 unpacker runGuarded(const word& what, const processLimits& limits,
                     const std::function<void(packer&, const grantTime&)>& job)
 {
-    const namelessFile log, result;
+    pipeTo log, result;
+    word printed, handed;
     const sharedMemory shared;
     const scalar begin = now();
     shared->deadline = begin + limits.seconds;
@@ -208,21 +234,21 @@ unpacker runGuarded(const word& what, const processLimits& limits,
     if (pid < 0) cannot("start a process for " + what);
     if (pid == 0)
     {
-        prepareChild(log, limits);
-        shared->result = carryOut(result, [&](packer& out) { job(out, grant); });
+        prepareChild(log.entry(), limits);
+        shared->result = carryOut(result.entry(), shared, [&](packer& out) { job(out, grant); });
         _exit(0);
     }
+    log.closeOwn(), result.closeOwn();
     int status = 0;
-    if (!waitFor(pid, shared, status))
+    if (!waitFor(pid, shared, log, printed, result, handed, status))
         throw fatalError(what + " did not finish within " + str(shared->deadline - begin, 3) +
-                         " s and was stopped." + limits.ifTooLong + lastSaid(log));
+                         " s and was stopped." + limits.ifTooLong + lastSaid(printed));
     if (status != 0 || shared->result == outcome::none)
         throw fatalError(what + " " + howItEnded(status) + " after " + str(now() - begin, 3) +
-                         " s." + limits.ifEnded + lastSaid(log));
-    unpacker in = unpacker::ofFile(result);
-    if (shared->result == outcome::refused) throw fatalError(in.rest());
-    if (shared->result == outcome::failed) throw fatalError(what + ": " + in.rest());
-    return in;
+                         " s." + limits.ifEnded + lastSaid(printed));
+    if (shared->result == outcome::done) return unpacker(std::move(handed));
+    const word said = handed.substr(std::min(size_t(shared->textAt), handed.size()));
+    throw fatalError(shared->result == outcome::refused ? said : what + ": " + said);
 }
 
 }  // namespace ispf
