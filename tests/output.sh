@@ -77,6 +77,28 @@ denied "is not a list of times" -time x
 denied "is not a list of times" -time ""
 denied "No particles were written at times 7:" -time 7:
 
+# ---- a tube that widens, its diameter during the run and afterwards -------------------------------------
+mkdir -p ../tube/{system,constant}; cd ../tube || exit 1
+ends() { echo "$1 { phase clamped; shape annulus; point1 (0 0 $2); point2 (0 0 $3); innerRadius 4e-3; outerRadius 6e-3; }"; }
+face() { echo "$1 { box ((-4.1e-3 -4.1e-3 $2) (4.1e-3 4.1e-3 $3)); }"; }
+echo "dx 1e-3; placement lattice; zones {
+    water { phase fluid; shape cylinder; point1 (0 0 0); point2 (0 0 10e-3); radius 4e-3; }
+    tube { phase solid; shape annulus; point1 (0 0 2e-3); point2 (0 0 8e-3); innerRadius 4e-3; outerRadius 6e-3; }
+    $(ends left -3e-3 2e-3) $(ends right 8e-3 13e-3) }
+    patches { $(face in -1e-4 1e-4) $(face out 9.9e-3 10.1e-3) }" > system/particleDict
+for side in in out; do echo "$side { type open; p table ((0 0) (0.05 100)); }"; done > constant/boundary
+echo 'rho 1000; mu 0.02;' > constant/physicalProperties
+echo 'structureModel springNetwork; E 5000; links radius; radius 2.1;' > constant/structureProperties
+echo 'coupling monolithic;' > system/sphSolution; : > system/sphSchemes
+echo 'startTime 0; endTime 0.05; deltaT 5e-3; writeControl timeStep; writeInterval 5; functions {
+    d { type zoneDiameter; surface tube_to_water; point (0 0 5e-3); axis (0 0 1); } }' > $control
+place; solved
+mv postProcessing written; ispfPostProcess > log 2>&1 || fail "zoneDiameter: $(tail -n 5 log)"
+awk '/^#/ || index(" 0 0.025 0.05 ", " " $1 " ")' written/d/0/zoneDiameter.dat | cmp -s - postProcessing/d/0/zoneDiameter.dat ||
+    fail "zoneDiameter afterwards: $(diff written/d/0/zoneDiameter.dat postProcessing/d/0/zoneDiameter.dat | head -n 4)"
+awk '!/^#/ { if (!n++) first = $2; last = $2 } END { exit !(n == 3 && first > 7e-3 && first < 9e-3 && last > 1.01*first && last < 1.5*first) }' \
+    postProcessing/d/0/zoneDiameter.dat || fail "a tube that widens: $(grep -v '^#' postProcessing/d/0/zoneDiameter.dat)"
+
 # ---- energies: a decaying flow, and an elastic wall that a piston bulges ever faster --------------------
 cp -r "$cases/../../tutorials/ispfFsiFoam/taylorGreen" ../decay; cd ../decay || exit 1
 echo "functions { e { type energy; } } endTime 0.1;" >> $control
