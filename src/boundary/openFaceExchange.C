@@ -12,9 +12,8 @@ namespace ispf
 namespace
 {
 
-constexpr scalar closest = 0.75;    // [dx] no particle is put nearer than this to another one
-constexpr scalar offWalls = 0.35;   // [dx] nor nearer than this to a wall
-constexpr scalar atOnePlace = 0.1;  // [dx] of two so near in the strip one goes
+constexpr scalar closest = 0.75;   // [dx] no particle is put nearer than this to another one
+constexpr scalar offWalls = 0.35;  // [dx] nor nearer than this to a wall
 constexpr scalar missingHere = 0.25, missingAround = 0.5;  // particles, see openFace.H
 constexpr scalar widest = 1.4;  // [dx] a hole of this radius is filled even if none is missing
 
@@ -56,22 +55,14 @@ struct openFace::census
     }
 };
 
-// Those beyond the outer end, and what a wall that runs along the face has pushed onto others in the strip
 label openFace::removeBeyond(particleCloud& cloud) const
 {
     findFeet(cloud);
     List<char> gone(cloud.n(), 0);
-    pointGrid strip(atOnePlace * dx_);
     label kept = cloud.nSolid();
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-    {
-        const surfaceFoot& f = known_[i].foot;
-        const vector x = cloud.x[i].xyz();
-        gone[i] = f.found && f.depth > 0 && (f.depth > depth_ || strip.any(x, atOnePlace * dx_));
-        if (gone[i]) continue;
-        if (f.found && f.depth > 0) strip.add(x);
-        known_[kept++] = known_[i];
-    }
+        if (known_[i].foot.found && known_[i].foot.depth > depth_) gone[i] = 1;
+        else known_[kept++] = known_[i];
     const label n = cloud.n() - kept;
     if (n > 0) cloud.remove(gone);
     return n;

@@ -185,3 +185,30 @@ TEST_CASE("a particle with nothing around it is counted in the log")
             CHECK(r.log.contains(stray ? "; strays 1\n" : "; strays 0\n"));
         }
 }
+
+TEST_CASE("a piston that runs along an open face takes its strip away")
+{
+    for (const char* coupling : {"projection", "monolithic"})
+    {
+        CAPTURE(coupling);
+        boxCase box = cornerOf(kinds[0], kinds[0], coupling);
+        const word open = "type open; p 0;";
+        box.patch = {open, slip, "type wall; motion { velocity (0 0.04 0); }", open};
+        runningBox r(box, "piston");
+        r.run(2.5e-3, 60);  // 6 dx
+        const List<patchBalance>& books = r.c.walls->balance();
+        scalar closest = 1;
+        label strip = 0;
+        for (label i = 0; i < r.c.cloud.n(); ++i)
+        {
+            if (r.c.cloud.x[i][0] > 0 || r.c.cloud.x[i][1] > box.height()) continue;
+            ++strip;
+            for (label j = 0; j < i; ++j)
+                closest = std::min(closest,
+                                   (r.c.cloud.x[i].xyz() - r.c.cloud.x[j].xyz()).norm() / box.dx);
+        }
+        CHECK(strip < 30);  // 2 layers of 10
+        CHECK(closest > 0.4);
+        CHECK(books[0].created < 10);  // behind it none
+    }
+}
