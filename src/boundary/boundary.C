@@ -138,6 +138,11 @@ List<structureImage> boundary::images() const
     return content_->group.maps();
 }
 
+scalar boundary::pressureOffset(const structureImage& image) const
+{
+    return content_->group.pressureOffset(image);
+}
+
 List<std::pair<vector, vector>> boundary::symmetryPlanes() const
 {
     return content_->group.symmetryPlanes();

@@ -54,7 +54,7 @@ wall wall::New(const word& name, const dictionary& dict, const word& caseFolder)
 
 void wall::setStep(scalar t0, scalar t1)
 {
-    moveTo(t0);
+    moveTo(t0), after = motion.frame(t1);
     surfaceVelocity = motion.surfaceVelocity(t0, t1), velocity = motion.velocity(t0, t1);
 }
 

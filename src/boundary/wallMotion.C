@@ -124,6 +124,22 @@ affineVelocity wallMotion::velocity(scalar t0, scalar t1) const
     return v;
 }
 
+scalar wallMotion::leavesItself(const triSurface& s) const
+{
+    scalar across[2] = {0, 0}, all[2] = {0, 0};
+    for (label t = 0; t < s.size(); ++t)
+    {
+        const vector area = s.areaVector(t);
+        const vector u[2] = {slideDirection_, spin_.axis.cross(vector(s.centre(t) - spin_.origin))};
+        for (int k = 0; k < 2; ++k)
+            across[k] += std::abs(u[k].dot(area)), all[k] += u[k].norm() * area.norm();
+    }
+    scalar most = 0;
+    for (int k = 0; k < 2; ++k)
+        if (all[k] > 0) most = std::max(most, across[k] / all[k]);
+    return most;
+}
+
 bool wallMotion::slidesWithin(const vector& normal) const
 {
     if (std::abs(slideDirection_.dot(normal)) > 1e-9 * slideDirection_.norm()) return false;

@@ -47,7 +47,14 @@ void wallSet::makeBodies(const word& caseFolder, const dictionary& patches, cons
             bodies_.push_back({patchSurface::plane(own.point, own.normal, reach), {w}});
             continue;
         }
-        triSurface surface = readPatch(caseFolder, own.name, patches.subDict(own.name));
+        const dictionary& dict = patches.subDict(own.name);
+        triSurface surface = readPatch(caseFolder, own.name, dict);
+        if (const scalar share = own.motion.leavesItself(surface); share > 0.1)
+            dict.fail(dict.found("velocity") ? "velocity" : "rotation",
+                      "The surface stays where it is, and slides or turns in itself, but " +
+                          str(100 * share, 2) +
+                          " % of this velocity points out of it. Name the faces that slide a patch "
+                          "of their own, or let the wall itself move with motion { ... }");
         if (own.motion.moves() || own.twoSided)
             bodies_.push_back(
                 {patchSurface::triangles(std::move(surface), group, reach, own.twoSided),

@@ -86,7 +86,9 @@ sweptRates wettedArea::rates(const wallSet& walls, const particleCloud& cloud) c
     {
         const wall& w = walls.walls()[p.wall];
         const vector centre = w.frame.toSpace(p.centre);
-        const scalar rate = -w.surfaceVelocity.at(centre).dot(w.frame.turn(p.area));
+        // the mean of the areas before and after, as wallSet::turnedVolume: chords alone have a divergence
+        const vector area = 0.5 * (w.frame.turn(p.area) + w.after.turn(p.area));
+        const scalar rate = -w.surfaceVelocity.at(centre).dot(area);
         if (rate == 0) continue;
         const vector at = centre - ahead * dx * w.frame.turn(p.normal);
         if (const label k = fluid.nearestIndex(at, sight * dx); k >= 0)

@@ -71,7 +71,8 @@ void fsiCase::readBoundary()
     const dictionary patches = dictionary::fromFile(time.constantFile("boundary"));
     walls =
         std::make_unique<boundary>(caseFolder(), patches, cloud, kernel->support(), time.value());
-    if (cloud.nSolid() > 0) walls->clampSolids(cloud, cloud.vectors.at("x0"), patches);
+    const auto rest = cloud.vectors.find("x0");
+    walls->clampSolids(cloud, rest == cloud.vectors.end() ? List<vec4>() : rest->second, patches);
     restoreBalance(cloud, *walls);
 }
 

@@ -80,7 +80,12 @@ scalar fieldSampler::sample(const particleField& f, size_t point) const
 {
     if (weights_[point].empty()) return none;
     scalar sum = 0;
-    for (const auto& c : weights_[point]) sum += c.weight * f.at(sources_[c.index].particle);
+    for (const auto& c : weights_[point])
+    {
+        const source& s = sources_[c.index];
+        sum += c.weight * f.at(s.particle);
+        if (s.map && f.name() == "p") sum += c.weight * case_.walls->pressureOffset(*s.map);
+    }
     return sum;
 }
 

@@ -60,6 +60,7 @@ void packingGuides::hold(packedParticle& p, const vector& by, bool exactly) cons
         const scalar d = plane.distance(p.x);
         if (d > -clear) p.x -= (d + clear) * plane.normal;
     }
+    if (geometry_.nDims() == 2) p.x[2] = 0;  // normals of slices are exact to rounding errors only
 }
 
 void packingGuides::keepOffWall(packedParticle& p) const
