@@ -27,6 +27,13 @@ igs="file \"$geometry/hccB.igs\";"
 cube
 dict "$stl"
 generateParticles > out 2>&1 && grep -q '^water .* 1000  *+0.00' out || fail "a cube: $(cat out)"
+# two dimensions: nothing leaves z = 0 where a solid is packed
+cp system/particleDict keptDict
+echo 'dx 0.01; nDims 2; zones { water { phase fluid; shape box; min (0 0 0); max (0.2 0.1 0); }
+    plate { phase solid; shape box; min (0 0.1 0); max (0.2 0.13 0); } }' > system/particleDict
+generateParticles > out 2>&1 && h5dump -m %.17g -y -w 1 -d /VTKHDF/Points 0/particles.hdf | tr -d ' ,' | grep -E '^[-0-9.e+]+$' |
+    paste - - - | awk 'NF == 3 { ++n; bad = bad || $3 != 0 } END { exit bad || n < 250 }' || fail "z in two dimensions: $(tail -n 5 out)"
+mv keptDict system/particleDict; generateParticles > out 2>&1
 grep -q "earlier run" out && fail "a cube: told of an earlier run that there is not"
 mkdir 0.5 1; touch 0.5/particles.hdf
 generateParticles > out 2>&1; grep -q "times of an earlier run: 0.5\." out || fail "an earlier run: $(cat out)"

@@ -257,3 +257,47 @@ TEST_CASE("a pressure drop between cyclic sides drives as the body force does")
             CHECK(worst < (drop.coupling == "projection" ? 0.03 : 0.005) * most);
         }
 }
+
+TEST_CASE("a round vessel turns, however long the step; what slides out of its surface is refused")
+{
+    const auto drum = [](scalar s, scalar z) -> vector {
+        const scalar a = 2 * M_PI * s;
+        return centre + vector(8 * dx * std::cos(a), 8 * dx * std::sin(a), (4 * z - 2) * dx);
+    };
+    const triSurface round =
+        scene::parametric(drum, 48, 2, [](const vector& x) -> vector { return x - centre; });
+    const auto build = [&](const word& coupling, const word& boundary, const triSurface& surface) {
+        auto files = std::make_unique<caseOnDisk>("round");
+        files->solution = "coupling " + coupling + ";", files->properties = "rho 1000; mu 0.05;";
+        files->boundary = boundary;
+        files->fill(0, 0, dx);
+        particleTable& t = files->particles();
+        const auto inDrum = [&](const vector& x) { return (x - centre).norm() < 7.9 * dx; };
+        for (const vector& x : scene::lattice(dx, {0, 0, 0}, {16 * dx, 16 * dx, 0}, inDrum, 2))
+        {
+            t.x.push_back(x), t.vectors["U"].push_back(turning(x)), t.scalars["p"].push_back(0);
+            t.integers["id"].push_back(globalId(t.x.size()) - 1), t.integers["zone"].push_back(0);
+        }
+        files->write(), writeSurface(surface, *files);
+        return files;
+    };
+    for (const char* coupling : {"projection", "monolithic"})
+    {
+        CAPTURE(coupling);
+        const auto files = build(coupling, text("motion { ", "omega 5;"), round);
+        capturedLog log;
+        Time time(files->path());
+        fsiCase c(time);
+        const auto scheme = couplingScheme::New(c);
+        runSteps(c, *scheme, 0.01, 32);
+        CHECK(worstDeviation(c.cloud) < 0.06 * omega * 8 * dx);
+    }
+    for (const auto& [boundary, surface] :
+         {std::pair(text("", "omega 5;"), square()),
+          std::pair(word("drum { type wall; representation mirror; velocity (1 0 0); }"), round)})
+    {
+        const auto files = build("projection", boundary, surface);
+        Time time(files->path());
+        CHECK_THROWS_WITH_AS(fsiCase c(time), doctest::Contains("points out of it"), fatalError);
+    }
+}

@@ -57,6 +57,24 @@ TEST_CASE("probes: exact on linear fields, NaN away from particles, OpenFOAM's l
     CHECK(text.find("Time\n") != word::npos);
 }
 
+TEST_CASE("probes beside cyclic sides with a pressure drop see it across them")
+{
+    testCase t;
+    t.addBlock("chamber", {0, 0, 0}, {8, 8, 8});
+    t.boundary = "ends { type cyclic; point (0 0 0); separation (8e-3 0 0); pressureDrop 16; }";
+    t.functions =
+        "at { type probes; fields (p); probeLocations ((1e-4 4e-3 4e-3) (7.9e-3 4e-3 4e-3)); }";
+    auto r = t.start();
+    particleCloud& cloud = r.c->cloud;
+    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] = 100 - 2000 * cloud.x[i][0];
+    r.c->walls->setStep(0, 0.1);
+    functionObjectList f(*r.c);
+    f.start();
+    const auto p = t.rows("at/0/p");
+    CHECK(p[0][1] == relative(99.8, 1e-6));
+    CHECK(p[0][2] == relative(84.2, 1e-6));
+}
+
 TEST_CASE("a probe in a hole between particles has a value, one as far outside them has none")
 {
     testCase t;
