@@ -151,6 +151,9 @@ bool Time::writeTime() const
     {
         const bool instant = passesWriteInstant();
         const bool signal = stopSignal != 0;
+        if (signal)
+            warning("A signal asks to stop: the state of time " + timeName() +
+                    " is written, endTime " + str(endTime_) + " is not reached");
         stopAfterThis_ = signal || stop_ || stopAt_ == "writeNow" || stopAt_ == "noWriteNow" ||
                          (stopAt_ == "nextWrite" && instant);
         const bool stopWrites = signal || (stop_ && stopWrites_) || stopAt_ == "writeNow";

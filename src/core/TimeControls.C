@@ -51,6 +51,9 @@ void Time::readControls(const dictionary& d)
     adjust_ = d.getOrDefault<bool>("adjustTimeStep", false);
     modifiable_ = d.getOrDefault<bool>("runTimeModifiable", false);
     readWriteControls(d);
+    if (stopAt_ == "nextWrite" && writeControl_ == "none" && writeTimes_.empty())
+        d.fail("stopAt",
+               "There is no next write: writeControl is 'none' and writeTimes are not given");
     for (const char* key : {"startFrom", "startTime"}) d.found(key);
     // What an OpenFOAM user writes here but has no effect on us
     for (const char* key : {"application", "graphFormat", "libs", "writeCompression"}) d.found(key);

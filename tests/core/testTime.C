@@ -294,6 +294,8 @@ TEST_CASE("mistakes in controlDict")
     const auto with = [](const word& text) { return testCase(text).time(); };
     CHECK_ERROR(with("deltaT 0; endTime 1; writeControl none;"), "must lie between", 1);
     CHECK_ERROR(with("deltaT 1; writeControl none;"), "'endTime' is missing", 0);
+    CHECK_ERROR(with("deltaT 1; endTime 9; stopAt nextWrite; writeControl none;"),
+                "There is no next write", 1);
     CHECK_ERROR(with("deltaT 1; endTime 1; writeControl runtime; writeInterval 1;"),
                 "Did you mean 'runTime'?", 1);
     CHECK_ERROR(with("deltaT 1; endTime 1;\nwriteControl timeStep; writeInterval 0.5;"),
