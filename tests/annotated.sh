@@ -53,7 +53,10 @@ boundaryWith "$(shown 'flowRate ')s|^( *)p .*||"
 solve && fail "a flow rate through a plane without an end is accepted"
 grep -q "The area of a plane" log || fail "flowRate: $(tail -n 5 log)"
 boundaryWith "$(shown 'slip ')s|^( *)representation .*||; s|^    velocity .*||"; solved
-boundaryWith "$(shown 'velocity .*speed' 'rotation .*itself')s|^    velocity  *\\(.*||"; solved
+boundaryWith "$(shown 'velocity .*speed')s|^    velocity  *\\(.*||"; solved
+boundaryWith "$(shown 'rotation .*itself')s|^    velocity  *\\(.*||"
+solve && fail "plane walls that turn in themselves are accepted"
+grep -q "of this velocity points out of it" log || fail "rotation: $(tail -n 5 log)"
 
 # a wrong place is told
 annotatedCase; place
