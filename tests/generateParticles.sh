@@ -5,9 +5,6 @@
 set -uo pipefail
 . "$(dirname "$0")/cases/functions"
 . "$(dirname "$0")/cases/geometryFunctions"
-cd "$scratch" || exit 1
-mkdir system constant
-echo "walls { type wall; }" > constant/boundary
 
 # A cube of 10 mm; $1: triangles left out at the end
 cube() {

@@ -5,10 +5,8 @@
 set -uo pipefail
 . "$(dirname "$0")/cases/functions"
 . "$(dirname "$0")/cases/geometryFunctions"
-cd "$scratch" || exit 1
-mkdir system constant tmp
+mkdir tmp
 export TMPDIR=$scratch/tmp
-echo "walls { type wall; }" > constant/boundary
 
 # ---- units: 10 x 10 x 10 in each, the report says which ----------------------------------------------------
 printf 'SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 10, 10, 10};\n' > constant/cube.geo

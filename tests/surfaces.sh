@@ -5,9 +5,6 @@
 set -uo pipefail
 . "$(dirname "$0")/cases/functions"
 . "$(dirname "$0")/cases/geometryFunctions"
-cd "$scratch" || exit 1
-mkdir system constant
-echo "walls { type wall; }" > constant/boundary
 stl='file "constant/part.stl"; unit mm;'
 
 # boxes x0 y0 z0 x1 y1 z1 [...]: "facet" lines of nine numbers; stl name: those lines as a solid

@@ -4,6 +4,8 @@
 
 #include "fileNames.H"
 
+#include <algorithm>
+
 namespace ispf
 {
 
@@ -92,45 +94,64 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
     checkRims(patches, sites, cloud.dx);
 }
 
-// Where two such meet, or a moving wall, particles would be carried into each other
+namespace
+{
+
+// An open face that gives the velocity, and its strip
+struct givingFace
+{
+    const openFace& face;
+    List<vector> strip;
+};
+
+bool meets(const givingFace& g, const wallSet& walls, label w, scalar dx)
+{
+    const bodyFrame& frame = walls.walls()[w].frame;
+    return std::any_of(g.strip.begin(), g.strip.end(),
+                       [&](const vector& x) { return walls.distance(w, frame.toBody(x)) < dx; });
+}
+
+// Do they meet, and give velocities along different directions there?
+bool clash(const givingFace& g, const givingFace& other, scalar dx)
+{
+    pointGrid grid(2 * dx);
+    for (const vector& x : other.strip) grid.add(x);
+    return std::any_of(g.strip.begin(), g.strip.end(), [&](const vector& x) {
+        const label near = grid.nearestIndex(x, 2 * dx);
+        return near >= 0 && (g.face.givenDirection(x).normalized() -
+                             other.face.givenDirection(grid[near]).normalized())
+                                    .norm() > 0.1;
+    });
+}
+
+}  // namespace
+
+// Particles would be carried into each other
 void boundary::content::checkRims(const dictionary& patches, const siteFile& sites, scalar dx) const
 {
-    const auto strip = [&](const openFace& face) {
-        return sites.positions(face.name(), patches.subDict(face.name()).where("type"));
-    };
+    List<givingFace> given;
     for (const openFace& face : openFaces)
+        if (face.givesVelocity())
+            given.push_back(
+                {face, sites.positions(face.name(), patches.subDict(face.name()).where("type"))});
+    for (size_t k = 0; k < given.size(); ++k)
     {
-        if (!face.givesVelocity()) continue;
-        const List<vector> own = strip(face);
-        const dictionary& dict = patches.subDict(face.name());
+        const word& name = given[k].face.name();
         for (label w = 0; w < label(walls.walls().size()); ++w)
-            for (const vector& x : own)
-                if (const wall& at = walls.walls()[w];
-                    at.motion.moves() && walls.distance(w, at.frame.toBody(x)) < dx)
-                    dict.fail(
-                        "type",
-                        "Wall " + at.name + " moves, and ends at the face " + face.name() +
-                            ", where the velocity is given: the one would run into what the other "
-                            "brings. Give the pressure there, or the wall a 'velocity' or "
-                            "'rotation' in itself if its surface stays where it is");
-        for (const openFace& other : openFaces)
-        {
-            if (&other <= &face || !other.givesVelocity()) continue;
-            pointGrid grid(2 * dx);
-            for (const vector& x : strip(other)) grid.add(x);
-            for (const vector& x : own)
-            {
-                const label near = grid.nearestIndex(x, 2 * dx);
-                if (near < 0) continue;
-                const vector a = face.givenDirection(x).normalized(),
-                             b = other.givenDirection(grid[near]).normalized();
-                if ((a - b).norm() > 0.1)
-                    dict.fail("type", "The faces " + face.name() + " and " + other.name() +
-                                          " meet, and the velocities they give run into each other "
-                                          "there. Give both one 'direction', one of them the "
-                                          "pressure, or leave a piece of wall between them");
-            }
-        }
+            if (const wall& at = walls.walls()[w];
+                at.motion.moves() && meets(given[k], walls, w, dx))
+                patches.subDict(name).fail(
+                    "type", "Wall " + at.name + " moves, and ends at the face " + name +
+                                ", where the velocity is given: the one would run into what the "
+                                "other brings. Give the pressure there, or the wall a 'velocity' "
+                                "or 'rotation' in itself if its surface stays where it is");
+        for (size_t m = k + 1; m < given.size(); ++m)
+            if (clash(given[k], given[m], dx))
+                patches.subDict(name).fail(
+                    "type", "The faces " + name + " and " + given[m].face.name() +
+                                " meet, and the velocities they give run into each other there. "
+                                "Give both one 'direction', one of them the pressure, or leave a "
+                                "piece of wall between them");
     }
 }
 

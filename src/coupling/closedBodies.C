@@ -140,9 +140,8 @@ void refusePush(const fsiCase& c, const sweptRates& pushed, const List<label>& z
     }
     if (!(std::abs(net) > admissible)) return;
     throw fatalError(
-        "Time " + c.time.timeName() + " s: walls and open faces push " + str(net) +
-        (c.cloud.nDims == 2 ? " m^2/s" : " m^3/s") + " into zone " +
-        c.cloud.zones[zones.front()].name +
+        "walls and open faces push " + str(net) + (c.cloud.nDims == 2 ? " m^2/s" : " m^3/s") +
+        " into zone " + c.cloud.zones[zones.front()].name +
         ", which has no other way out: an incompressible fluid cannot give way. Add an "
         "open patch that gives the pressure or an elastic wall, or balance what is given");
 }

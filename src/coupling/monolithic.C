@@ -276,7 +276,8 @@ void monolithic::advance(scalar t, scalar dt, int depth)
     structureState();
     List<scalar> z;
     system_.hydrostatic().take(cloud);
-    if (const word reason = solve(dt, z); !reason.empty())
+    const word reason = atTime(t + dt, [&] { return solve(dt, z); });
+    if (!reason.empty())
     {
         if (depth == 4)
             throw fatalError("Time " + str(t) + " s: a step of " + str(dt) +

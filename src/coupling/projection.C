@@ -151,14 +151,7 @@ void projection::step(scalar t, scalar dt)
     particleCloud& cloud = c_.cloud;
     const stencil s{cloud, c_.list, c_.correction};
     const List<vec4> before = mean_ ? cloud.Up : List<vec4>();
-    try
-    {
-        solve(s, dt);
-    }
-    catch (const fatalError& e)
-    {
-        throw fatalError("Time " + str(t + dt) + " s: " + e.what());
-    }
+    atTime(t + dt, [&] { solve(s, dt); });
     cloud.checkFinite(t + dt);
     c_.followOpen(dt);
 

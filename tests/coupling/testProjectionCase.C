@@ -17,7 +17,12 @@ const char* const slipBox = R"(
     bottom { type symmetryPlane; point (0 0 0); normal (0 -1 0); }
     top    { type symmetryPlane; point (0 0.4 0); normal (0 1 0); })";
 
-// The same box with walls
+const char* const endlessBox = R"(
+    sides  { type cyclic; point (0 0 0); separation (0.32 0 0); }
+    bottom { type symmetryPlane; point (0 0 0); normal (0 -1 0); }
+    top    { type symmetryPlane; point (0 0.4 0); normal (0 1 0); })";
+
+// The first box with walls
 word walls(const word& representation)
 {
     const auto plane = [&](const word& name, const word& point, const word& normal) {
@@ -201,10 +206,7 @@ TEST_CASE("a body force along a cyclic direction accelerates, all else of it is 
 {
     caseOnDisk files("freeFall");
     files.fill(16, 20, 0.02);
-    files.boundary = R"(
-        sides  { type cyclic; point (0 0 0); separation (0.32 0 0); }
-        bottom { type symmetryPlane; point (0 0 0); normal (0 -1 0); }
-        top    { type symmetryPlane; point (0 0.4 0); normal (0 1 0); })";
+    files.boundary = endlessBox;
     files.g = "(2 -9.81 0)";
     files.write();
     capturedLog log;
@@ -227,10 +229,7 @@ TEST_CASE("a body force that grows with time")
         files.solution = "coupling " + coupling +
                          "; monolithic { tolerance 1e-10; }"
                          "solvers { p { solver PCG; preconditioner multigrid; tolerance 1e-10; } }";
-        files.boundary = R"(
-            sides  { type cyclic; point (0 0 0); separation (0.32 0 0); }
-            bottom { type symmetryPlane; point (0 0 0); normal (0 -1 0); }
-            top    { type symmetryPlane; point (0 0.4 0); normal (0 1 0); })";
+        files.boundary = endlessBox;
         files.g = "table ((0 (0 0 0)) (1 (20 -98.1 0)))";
         files.write();
         capturedLog log;
