@@ -30,6 +30,14 @@ echo 'dx 0.01; nDims 2; zones { water { phase fluid; shape box; min (0 0 0); max
     plate { phase solid; shape box; min (0 0.1 0); max (0.2 0.13 0); } }' > system/particleDict
 generateParticles > out 2>&1 && h5dump -m %.17g -y -w 1 -d /VTKHDF/Points 0/particles.hdf | tr -d ' ,' | grep -E '^[-0-9.e+]+$' |
     paste - - - | awk 'NF == 3 { ++n; bad = bad || $3 != 0 } END { exit bad || n < 250 }' || fail "z in two dimensions: $(tail -n 5 out)"
+# thin plates, beside other zones and with fluid all around, have every particle of theirs
+for zones in 'ch { phase fluid; shape box; min (-0.2 0 0); max (0.2 0.1 0); } bath { phase fluid; shape box; min (-0.2 0.13 0);
+        max (0.2 0.2 0); } plate { phase solid; shape box; min (-0.2 0.1 0); max (0.2 0.13 0); }' \
+    'tank { phase fluid; shape box; min (-0.1 0 0); max (0.3 0.2 0); } plate { phase solid; shape box; min (0 0.1 0); max (0.2 0.12 0); }' \
+    'tank { phase fluid; shape box; min (-0.1 0 0); max (0.5 0.2 0); } plate { phase solid; shape box; min (0 0.1 0); max (0.4 0.14 0); }'; do
+    echo "dx 0.01; nDims 2; zones { $zones }" > system/particleDict
+    generateParticles > out 2>&1 && grep -Eq '^plate +[^ ]+ +[0-9]+ +[-+]0.00' out && ! grep -q Warning out || fail "a thin plate: $(tail -n 8 out)"
+done
 mv keptDict system/particleDict; generateParticles > out 2>&1
 grep -q "earlier run" out && fail "a cube: told of an earlier run that there is not"
 mkdir 0.5 1; touch 0.5/particles.hdf

@@ -132,7 +132,8 @@ List<zoneQuality> packingQuality(const zoneGeometry& geometry, const placedParti
     return quality;
 }
 
-void reportPacking(const zoneGeometry& geometry, const placedParticles& placed, scalar support)
+void reportPacking(const zoneGeometry& geometry, const placedParticles& placed, scalar support,
+                   bool bodyFitted)
 {
     const List<zoneQuality> quality = packingQuality(geometry, placed, support);
     std::ostream& out = info();
@@ -164,12 +165,15 @@ void reportPacking(const zoneGeometry& geometry, const placedParticles& placed, 
         if (q.minDistance < tooClose)
             warning("Particles of zone " + name +
                     ", their images beyond symmetry planes included, are " + str(q.minDistance, 3) +
-                    " dx apart: a lattice fits planes along its axes at whole or half spacings "
-                    "only; choose placement bodyFitted");
+                    " dx apart: " +
+                    (bodyFitted ? "the zone is thinner there than a particle; choose a finer dx"
+                                : "a lattice fits planes along its axes at whole or half spacings "
+                                  "only; choose placement bodyFitted"));
         if (std::abs(q.volumeError) > 0.005)
             warning("The particles of zone " + name + " miss its volume by " +
-                    percent(q.volumeError) +
-                    " %: choose a dx that divides its lengths, or placement bodyFitted");
+                    percent(q.volumeError) + " %: choose " +
+                    (bodyFitted ? "a finer dx; a zone of few particles cannot hold half of one"
+                                : "a dx that divides its lengths, or placement bodyFitted"));
     }
     reportOverlaps(geometry, placed);
     label strip = 0;

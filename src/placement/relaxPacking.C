@@ -19,6 +19,7 @@ constexpr scalar narrowSupport = 1.7;  // in dx
 constexpr scalar wideRate = 0.4;       // of the displacement that would cure a long wave at once
 constexpr scalar narrowRate = 0.12;
 constexpr label correctionInterval = 12;  // iterations between additions and removals
+constexpr scalar roomAtBirth = 0.6;       // in dx, to the next particle
 constexpr scalar tolerableSum = 0.035;    // deviation of a kernel sum that calls for a correction
 
 class relaxation
@@ -106,8 +107,9 @@ private:
 
     void correct();
     void matchTargets();
-    void change(label most, bool final);
-    bool birthPlace(const cellList& cells, const packedParticle& parent,
+    void change(label most, scalar room, bool exchange);
+    bool offTarget() const;
+    bool birthPlace(const cellList& cells, const packedParticle& parent, scalar room,
                     packedParticle& born) const;
 
     List<packedParticle>& particles_;
@@ -121,11 +123,11 @@ private:
     packingPairs pairs_;
 };
 
-// The roomiest place around a particle, in the same zone and bound alike
-bool relaxation::birthPlace(const cellList& cells, const packedParticle& parent,
+// The roomiest place around a particle, in the same zone and bound alike, at least `room` from all others
+bool relaxation::birthPlace(const cellList& cells, const packedParticle& parent, scalar room,
                             packedParticle& born) const
 {
-    scalar best = 0.6 * dx_;
+    scalar best = room;
     for (int a = -1; a <= 1; ++a)
         for (int b = -1; b <= 1; ++b)
             for (int c = -1; c <= 1; ++c)
@@ -142,11 +144,12 @@ bool relaxation::birthPlace(const cellList& cells, const packedParticle& parent,
                 born = p;
             }
     born.seed = born.x;
-    return best > 0.6 * dx_;
+    return best > room;
 }
 
-// Adds where sums are lowest and removes where they are highest, at most `most` of each per zone
-void relaxation::change(label most, bool final)
+// Adds where sums are lowest and removes where they are highest, until a zone has its target or `most` of each.
+// Exchanges: as many again where sums are far off, and no more are taken than others found room for
+void relaxation::change(label most, scalar room, bool exchange)
 {
     const List<scalar> sum = kernelSums();
     List<List<label>> member(geometry_.zones().size());
@@ -167,19 +170,21 @@ void relaxation::change(label most, bool final)
         std::sort(m.begin(), m.end(),
                   [&](label a, label b) { return sum[a] < sum[b] || (sum[a] == sum[b] && a < b); });
         const label excess = label(m.size()) - target_[z];
-        label remove = std::max<label>(0, excess), add = std::max<label>(0, -excess);
-        if (!final) remove = std::min(remove, most), add = std::min(add, most);
-        // Exchanges: as many again where sums are far off
         label high = 0, low = 0;
         for (const label i : m) high += sum[i] > 1 + tolerableSum, low += sum[i] < 1 - tolerableSum;
-        const label swap = final ? 0 : std::min({high, low, most});
-        remove += swap, add += swap;
-        for (size_t k = m.size(); k-- > 0 && remove > 0;)
-            if (!touched[m[k]]) gone[m[k]] = 1, --remove, isolate(m[k]);
+        const label swap = exchange ? std::min({high, low, most}) : 0;
+        const label remove = std::clamp<label>(excess, 0, most) + swap,
+                    add = std::clamp<label>(-excess, 0, most) + swap;
+        List<label> removed;
+        for (size_t k = m.size(); k-- > 0 && label(removed.size()) < remove;)
+            if (!touched[m[k]]) removed.push_back(m[k]), isolate(m[k]);
+        label added = 0;
         packedParticle p;
-        for (size_t k = 0; k < m.size() && add > 0; ++k)
-            if (!touched[m[k]] && birthPlace(cells, particles_[m[k]], p))
-                born.push_back(p), --add, isolate(m[k]);
+        for (size_t k = 0; k < m.size() && added < add; ++k)
+            if (!touched[m[k]] && birthPlace(cells, particles_[m[k]], room, p))
+                born.push_back(p), ++added, isolate(m[k]);
+        removed.resize(std::min<size_t>(removed.size(), remove - std::min(add - added, swap)));
+        for (const label i : removed) gone[i] = 1;
     }
     List<packedParticle> kept;
     for (size_t i = 0; i < particles_.size(); ++i)
@@ -190,13 +195,26 @@ void relaxation::change(label most, bool final)
 
 void relaxation::correct()
 {
-    change(std::max<label>(20, label(particles_.size() / 200)), false);
+    change(std::max<label>(20, label(particles_.size() / 200)), roomAtBirth * dx_, true);
 }
 
+bool relaxation::offTarget() const
+{
+    List<label> n(target_.size(), 0);
+    for (const packedParticle& p : particles_)
+        if (p.where == place::zone) ++n[p.owner];
+    return n != target_;
+}
+
+// Layers that are evenly full have no gap for one more: it is squeezed in, and the others move up
 void relaxation::matchTargets()
 {
-    change(0, true);
-    for (label it = 0; it < 20; ++it) step(0.5);
+    for (const scalar room : {1.0, 0.75, 0.5, 0.25})
+    {
+        change(label(particles_.size()), room * roomAtBirth * dx_, false);
+        for (label it = 0; it < 20; ++it) step(0.5);
+        if (!offTarget()) break;
+    }
     for (packedParticle& p : particles_) guides_.hold(p, vector::Zero(), true);
 }
 

@@ -45,7 +45,7 @@ int main(int argc, char** argv)
         const placedParticles placed =
             dict.bodyFitted ? placeBodyFitted(geometry, outside, dict.support)
                             : placeOnLattice(geometry, outside, dict.origin, dict.support);
-        reportPacking(geometry, placed, dict.support);
+        reportPacking(geometry, placed, dict.support, dict.bodyFitted);
         writeParticleFiles(folder, geometry, placed, dict.initial(), dict.sources,
                            dict.stripLayers);
         warnOfOldTimes(folder);
