@@ -44,7 +44,16 @@ compare() {
 compared=0; refused=0
 cp "$cases"/* .
 for f in "$cases"/*; do compare "$(basename "$f")" "$(basename "$f")"; done
-[ $compared = "$(ls "$cases" | wc -l)" ] || { echo "  foamDictionary refuses a sample"; failures=$((failures+1)); }
+# #ifeq of everything with everything.  Here 5.0 is 5 on both sides and ${x} the same as $x, in OpenFOAM not quite
+operands=(5 '"5"' abc '"abc"' '$x' '"$x"' '$y' '"$y"' '"${y}"' '$z' '"$z"' '"$s.t"' on true '""' '"$none"')
+{
+    echo 'FoamFile { version 2.0; format ascii; class dictionary; object conditions; } x 5; y abc; z "abc"; s { t 1; }'
+    for i in "${!operands[@]}"; do
+        for k in "${!operands[@]}"; do printf '#ifeq %s %s\nsame%s_%s yes;\n#endif\n' "${operands[i]}" "${operands[k]}" "$i" "$k"; done
+    done
+} > conditions
+compare conditions conditions
+[ $compared = $(($(ls "$cases" | wc -l) + 1)) ] || { echo "  foamDictionary refuses a sample"; failures=$((failures+1)); }
 if [ -d $examples ]; then
     every=30; [ -z "${TUTORIALS:-}" ] || every=1
     cp -rL "$examples/." tutorials && find tutorials -name '*.gz' -exec gunzip -f {} + 2> unpacked.err

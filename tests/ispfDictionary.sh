@@ -48,7 +48,12 @@ edits() {
     cp before original
 }
 gives 1 -entry endTime -value
-gives "endTime   1;" -entry endTime
+gives "endTime         1;" -entry endTime
+gives "endTime   1;" -entry endTime -disableFunctionEntries
+gives 1 -entry copy.a -value
+gives on -entry mode -value
+gives off -entry mode -value -disableFunctionEntries  # the last of the text
+gives ' $base; b 2; ' -entry copy -value -disableFunctionEntries
 gives 1e-6 -entry solvers.pFinal.tolerance -value
 gives 0.1 -entry /solvers/U/relTol -value
 gives 1 -expand -entry copy.a -value
@@ -69,6 +74,8 @@ refuses "There is no entry 'endTim'. Did you mean 'endTime'" -entry endTim -valu
 refuses "would break" -entry endTime -set "(1 2"
 refuses "Only one" -entry endTime -set 1 -remove
 refuses "no entry" -entry nothing -remove
+refuses "'endTime' is a value and no dictionary" -entry endTime.a -set 3
+refuses "'base.a' is a value and no dictionary" -entry base.a.b.c -add 3
 refuses "option -entry is needed" -set 1
 cp original other && ispfDictionary other -entry solvers.U.relTol -set 0.2 > log
 [ "$(ispfDictionary original -diff other | tr -s ' \n' ' ')" = "solvers { U { relTol 0.1; } } " ] || fail "-diff: $(ispfDictionary original -diff other)"

@@ -167,6 +167,12 @@ refused "not an HDF5 file"
 mv 0.3 ../bad
 solved
 cp good.hdf ../bad/particles.hdf; same 0.3 ../bad "from the state before"
+cp 0.2/particles.hdf 0.3/particles.hdf; solved
+says "The particles in .*/0.3 were written at time 0.2, the clock beside them says another: it is believed"
+cp good.hdf 0.3/particles.hdf
+echo "startFrom startTime; startTime 0.25;" >> $control
+refused "There are no particles of time 0.25: .*/0.25/particles.hdf is missing"
+says "Times with particles: 0 0.1 0.2 0.3; startFrom and startTime"
 
 # ---- a full disk, folders that cannot be made: what was written stays ---------------------------------
 cd ../purge || exit 1

@@ -181,9 +181,9 @@ void Time::requestStop(bool write)
     stopWrites_ = stopWrites_ || write;
 }
 
-void Time::alsoHit(scalar interval)
+void Time::alsoHit(const List<scalar>& intervals)
 {
-    hitIntervals_.push_back(interval);
+    hitIntervals_ = intervals;
 }
 
 void Time::signalled()

@@ -93,9 +93,10 @@ void Time::rereadIfModified()
         Time changed = *this;  // all of it or nothing
         changed.control_ = dictionary::fromFile(controlFile());
         changed.readControls(changed.control_);
-        if (const dictionary* functions = changed.control_.findDict("functions"))
-            functions->markAllRead();  // they stay as they were at the start
-        changed.control_.checkAllRead();
+        dictionary others = changed.control_;
+        others.remove("functions");  // who reads them checks them
+        others.checkAllRead();
+        ++changed.readings_;
         *this = changed;
         info() << "Read the changed " << controlFile() << "\n";
     }

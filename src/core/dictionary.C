@@ -246,6 +246,11 @@ void dictionary::set(const word& key, const word& value)
     content_->renewed(name).value = std::move(tokens);
 }
 
+void dictionary::remove(const word& key)
+{
+    if (const dictionaryEntry* e = content_->exact(key)) content_->remove(*e);
+}
+
 dictionary& dictionary::subDictOrAdd(const word& key)
 {
     dictionaryEntry* e = content_->exact(key);

@@ -11,15 +11,26 @@ namespace ispf
 namespace
 {
 
-// Numbers by value, anything else by its text
+bool isNumber(const token& t, scalar& value)
+{
+    return t.isPlain() && readNumber(t.text, value);
+}
+
+// Numbers by value, words and strings by their text; a number is no string
 bool equal(const List<token>& a, const List<token>& b)
 {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const token& s, const token& t) {
-        scalar x, y;
-        if (s.isPlain() && t.isPlain() && readNumber(s.text, x) && readNumber(t.text, y))
-            return x == y;
-        return s.text == t.text;
+        scalar x = 0, y = 0;
+        const bool number = isNumber(s, x);
+        return number == isNumber(t, y) && (number ? x == y : s.text == t.text);
     });
+}
+
+// "$name" and nothing else: the same as $name
+bool isQuotedMacro(const token& t)
+{
+    return t.kind == token::quoted && t.text.size() > 1 && t.text[0] == '$' &&
+           t.text.find_first_of("${ \t", 1) == word::npos;
 }
 
 }  // namespace
@@ -27,7 +38,9 @@ bool equal(const List<token>& a, const List<token>& b)
 // One operand: a word, a string, a macro, or a formula
 List<token> dictionaryParser::operand(const token& name, source& in)
 {
-    const token t = in.take();
+    token t = in.take();
+    if (isQuotedMacro(t)) t.kind = token::variable, t.text.erase(0, 1);
+    else if (t.kind == token::quoted) t.text = expanded(t.text, t, false);
     if (t.kind == token::variable)
     {
         const bool mayBeUnset = name.text == "ifeq" && t.text.find_first_of("${:") == word::npos;

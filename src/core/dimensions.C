@@ -232,6 +232,11 @@ private:
             if (u != units.end() && u->second.takesPrefix)
                 return {u->second.dimensions, factor * u->second.factor};
         }
+        const size_t letters = std::min(name.find_first_of("0123456789"), name.size());
+        if (letters < name.size())
+            throw fatalError("Unknown unit '" + name + "' in [" + s_ + "]. Powers are written " +
+                                 name.substr(0, letters) + "^" + name.substr(letters) + ".",
+                             where_);
         List<word> valid = {"kg", "mm", "cm", "ms", "ml", "kPa", "cP", "cSt"};
         for (const auto& [known, u] : units) valid.push_back(known);
         throw fatalError(

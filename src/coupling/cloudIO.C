@@ -4,6 +4,7 @@
 #include "particleState.H"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <sstream>
@@ -72,9 +73,23 @@ bool isKnown(const word& attribute)
     return false;
 }
 
+[[noreturn]] void failWithoutState(const Time& time)
+{
+    List<word> present;
+    for (const Time::folderOfTime& f : time.folders())
+        if (time.hasState(f.name)) present.push_back(f.name);
+    throw fatalError("There are no particles of time " + time.timeName() + ": " + time.folder() +
+                     "/particles.hdf is missing.\n" +
+                     (present.empty() ? "generateParticles makes those of time 0."
+                                      : "Times with particles: " + join(present) +
+                                            "; startFrom and startTime in system/controlDict "
+                                            "choose one of them."));
+}
+
 // Where the last state is no good, the one before is the user's to choose
 particleTable readStateOf(const Time& time)
 {
+    if (!time.hasState(time.folderName(time.value()))) failWithoutState(time);
     try
     {
         return readState(time.folder());
@@ -108,7 +123,15 @@ void writeSeriesOf(const Time& time, const word& file, const List<word>& without
 
 void setClock(Time& time, const particleTable& table, const word& file)
 {
-    if (time.hasClock() || !table.attributes.count("timeIndex")) return;
+    if (!table.attributes.count("timeIndex")) return;
+    if (time.hasClock())
+    {
+        const scalar t = table.scalarAttribute("time");
+        if (std::abs(t - time.value()) > 1e-9 * std::abs(t))
+            warning("The particles in " + file + " were written at time " + str(t, 10) +
+                    ", the clock beside them says another: it is believed");
+        return;
+    }
     warning(time.folder() + "/uniform/time is missing: the clock is set from the particles");
     time.recall(table.scalarAttribute("time"), label(table.scalarAttribute("timeIndex")),
                 table.scalarAttribute("deltaT"), file);

@@ -188,10 +188,15 @@ private:
 
 }  // namespace
 
-void writeParticles(const particleTable& table, const word& path)
+namedText particleText(const particleTable& table, const word& path)
 {
     checkTable(table, "Particles are not written to '" + path + "'");
-    writeText(path, composer().bytes(table));
+    return {path, composer().bytes(table)};
+}
+
+void writeParticles(const particleTable& table, const word& path)
+{
+    writeTexts({particleText(table, path)});
 }
 
 particleTable readParticlesHere(const word& path, List<word>& remarks)

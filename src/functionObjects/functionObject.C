@@ -28,7 +28,7 @@ std::unique_ptr<functionObject> functionObject::New(const word& name, const dict
 }
 
 functionObject::functionObject(const word& name, const dictionary& dict, const fsiCase& c)
-    : name_(name), case_(c)
+    : name_(name), case_(c), begin_(c.time.value())
 {
     precision_ = dict.getInRangeOrDefault<label>("writePrecision", 1, 17, c.time.writePrecision());
 }
@@ -40,7 +40,7 @@ word functionObject::folder(const word& time) const
 
 word functionObject::startFolder() const
 {
-    return folder(case_.time.timeName(case_.time.startTime()));
+    return folder(case_.time.timeName(begin_));
 }
 
 word functionObject::tablePath(const word& file) const
@@ -48,8 +48,7 @@ word functionObject::tablePath(const word& file) const
     const word path = startFolder() + "/" + file;
     if (!case_.time.postProcessing() || !isFile(path)) return path;
     const size_t dot = std::min(path.find('.', startFolder().size()), path.size());
-    return path.substr(0, dot) + "_" + case_.time.timeName(case_.time.startTime()) +
-           path.substr(dot);
+    return path.substr(0, dot) + "_" + case_.time.timeName(begin_) + path.substr(dot);
 }
 
 dataFile functionObject::table(const word& file, const List<word>& remarks,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "functionObjectList.H"
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 
@@ -31,18 +32,32 @@ functionObjectList::functionObjectList(fsiCase& c)
     info() << "function objects: " << (items_.empty() ? "none" : join(names())) << "\n";
 }
 
-functionObjectList::functionObjectList(fsiCase& c, const dictionary& functions) : case_(c)
+functionObjectList::functionObjectList(fsiCase& c, const dictionary& functions)
+    : case_(c), readings_(c.time.controlReadings())
 {
-    for (const word& name : functions.dictKeys())
-    {
-        const dictionary& dict = functions.subDict(name);
-        if (dict.getOrDefault<bool>("enabled", true)) add(name, dict);
-        else dict.markAllRead();
-    }
+    adopt(read(functions));
     restore();
 }
 
-void functionObjectList::add(const word& name, const dictionary& dict)
+List<functionObjectList::item> functionObjectList::read(const dictionary& functions) const
+{
+    List<item> items;
+    for (const word& name : functions.dictKeys())
+    {
+        const dictionary& dict = functions.subDict(name);
+        const bool enabled = dict.getOrDefault<bool>("enabled", true);
+        const auto same = std::find_if(items_.begin(), items_.end(), [&](const item& i) {
+            return i.object->name() == name && i.text == functions.toString(name);
+        });
+        if (!enabled || same != items_.end()) dict.markAllRead();
+        if (!enabled) continue;
+        items.push_back(same != items_.end() ? *same : make(name, dict));
+        items.back().text = functions.toString(name);
+    }
+    return items;
+}
+
+functionObjectList::item functionObjectList::make(const word& name, const dictionary& dict) const
 {
     item i;
     dict.found("libs"), dict.found("log"), dict.found("region");  // OpenFOAM's
@@ -58,11 +73,49 @@ void functionObjectList::add(const word& name, const dictionary& dict)
     i.from = dict.getOrDefault<scalar>("timeStart", -1e30, dims::time);
     i.to = dict.getOrDefault<scalar>("timeEnd", 1e30, dims::time);
     if (i.to < i.from) dict.fail("timeEnd", "timeEnd lies before timeStart: nothing is ever done.");
-    items_.push_back(std::move(i));
+    return i;
+}
+
+void functionObjectList::adopt(List<item> items)
+{
+    items_ = std::move(items);
+    List<scalar> intervals;
+    for (const item& i : items_)
+        for (const trigger& t : {i.execute, i.write})
+            if (t.control == "adjustableRunTime") intervals.push_back(t.interval);
+    case_.time.alsoHit(intervals);
+}
+
+void functionObjectList::renew()
+{
+    if (readings_ == case_.time.controlReadings()) return;
+    readings_ = case_.time.controlReadings();
+    const dictionary functions = case_.time.controlDict().subOrEmptyDict("functions");
+    try
+    {
+        const auto forget = [&](const item& i) { case_.cloud.history.erase(stateOf(*i.object)); };
+        const auto isIn = [](const List<item>& items, const item& one) {
+            return std::any_of(items.begin(), items.end(),
+                               [&](const item& i) { return i.object == one.object; });
+        };
+        List<item> next = read(functions);
+        functions.checkAllRead();
+        bool changed = false;
+        for (item& i : items_)
+            if (!isIn(next, i)) changed = true, finish(i), forget(i);
+        for (const item& i : next)
+            if (!isIn(items_, i)) changed = true, forget(i);
+        adopt(std::move(next));
+        if (changed) info() << "function objects from now on: " << join(names()) << "\n";
+    }
+    catch (const fatalError& e)
+    {
+        warning("The changed functions are not used, those of before go on:" + formatted(e));
+    }
 }
 
 functionObjectList::trigger functionObjectList::checked(trigger t, const dictionary& dict,
-                                                        const word& what)
+                                                        const word& what) const
 {
     static const std::map<word, word> aliases = {
         {"outputTime", "writeTime"}, {"adjustable", "adjustableRunTime"}, {"always", "timeStep"}};
@@ -79,7 +132,6 @@ functionObjectList::trigger functionObjectList::checked(trigger t, const diction
         dict.fail(interval, "'" + control + " " + t.control + "' takes no " + interval + ".");
     if (counts && t.interval != std::floor(t.interval))
         dict.fail(interval, "With '" + control + " timeStep' this counts steps: a whole number.");
-    if (t.control == "adjustableRunTime") case_.time.alsoHit(t.interval);
     t.passed = multiples(t);
     return t;
 }
@@ -133,6 +185,7 @@ void functionObjectList::start()
 
 void functionObjectList::execute()
 {
+    renew();
     placeWalls();
     for (item& i : items_)
     {
@@ -149,11 +202,13 @@ void functionObjectList::execute()
 
 void functionObjectList::end()
 {
-    for (item& i : items_)
-    {
-        if (i.write.control == "onEnd" && within(i)) i.object->write();
-        i.object->end();
-    }
+    for (item& i : items_) finish(i);
+}
+
+void functionObjectList::finish(item& i)
+{
+    if (i.write.control == "onEnd" && within(i)) i.object->write();
+    i.object->end();
 }
 
 void functionObjectList::writeNow()

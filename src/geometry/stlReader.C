@@ -228,7 +228,10 @@ triSurface parseSTL(const word& bytes, const word& path)
     if (!binary) checkLooksAscii(bytes, path);
     triSurface s = binary ? readBinary(bytes, path) : asciiReader(bytes, path).read();
     if (s.empty()) throw fatalError("The surface file " + path + " holds no triangle");
+    const label all = label(s.size());
     s.weld(0);
+    if (const label flat = all - label(s.size()); flat > 0 && flat < all)
+        info() << path << ": triangles without area dropped: " << flat << "\n";
     if (s.empty()) throw fatalError("All triangles of the surface file " + path + " have no area");
     return s;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "fileNames.H"
 #include "triSurface.H"
 
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <iomanip>
+#include <sstream>
 
 namespace ispf
 {
@@ -62,13 +62,10 @@ void writeAscii(std::ostream& out, const triSurface& s)
 
 void writeSTL(const triSurface& surface, const word& path, bool binary)
 {
-    const auto folder = std::filesystem::path(path).parent_path();
-    if (!folder.empty()) std::filesystem::create_directories(folder);
-    std::ofstream out(path, std::ios::binary);
+    std::ostringstream out;
     if (binary) writeBinary(out, surface);
     else writeAscii(out, surface);
-    out.close();
-    if (!out) throw fatalError("Cannot write the surface file " + path);
+    writeText(path, out.str());
 }
 
 }  // namespace ispf

@@ -154,6 +154,39 @@ TEST_CASE("#if and #ifeq, nested, with #else")
     CHECK(d.subDict("b").get<label>("y") == 4);
 }
 
+// As foamDictionary has it, tests/foamDictionary.sh
+TEST_CASE("#ifeq compares numbers with numbers, and the text of words and strings")
+{
+    const auto equal = [](const word& a, const word& b) {
+        const word text = "x 5; y abc; s { t 1; }\n#ifeq " + a + " " + b + "\nsame 1;\n#endif\n";
+        return parsed(text).found("same");
+    };
+    for (const auto& [a, b] : {std::pair("5", "5.0"),
+                               {"\"5\"", "\"5\""},
+                               {"\"$x\"", "5"},
+                               {"$x", "\"$x\""},
+                               {"\"$y\"", "abc"},
+                               {"\"abc\"", "$y"},
+                               {"\"${y}\"", "abc"},
+                               {"\"$s.t\"", "1"},
+                               {"\"$nothing\"", "\"\""}})
+    {
+        CAPTURE(a);
+        CHECK(equal(a, b));
+        CHECK(equal(b, a));
+    }
+    for (const auto& [a, b] : {std::pair("5", "\"5\""),
+                               {"$x", "\"5\""},
+                               {"\"5\"", "\"5.0\""},
+                               {"$y", "$x"},
+                               {"\"$x$x\"", "55"}})
+    {
+        CAPTURE(a);
+        CHECK(!equal(a, b));
+        CHECK(!equal(b, a));
+    }
+}
+
 TEST_CASE("mistakes in conditions")
 {
     CHECK_ERROR(parsed("a 1;\n#if 1\nb 2;"), "The #if here has no #endif", 2);

@@ -56,6 +56,38 @@ TEST_CASE("write controls")
     CHECK(timesOf(t, "f/0/minMax.dat") == List<scalar>{0.25, 0.375, 0.5});
 }
 
+TEST_CASE("functions that change during a run")
+{
+    testCase t;
+    t.addBlock("chamber", {0, 0, 0}, {3, 3, 3});
+    t.control =
+        "endTime 1; deltaT 0.125; writeControl timeStep; writeInterval 3; runTimeModifiable yes;";
+    t.functions = "a { type minMax; } b { type minMax; } c { type minMax; writeInterval 2; }";
+    auto r = t.start();
+    functionObjectList f(*r.c);
+    f.start();
+    const auto change = [&](const word& functions) {
+        t.write("system/controlDict", t.control + "functions {" + functions + "}");
+        ++*r.time, f.execute();
+    };
+    ++*r.time, f.execute();
+    change("a { type minMax; } c { type minMax; writeInterval 1; } d { type minMax; }");
+    CHECK(f.names() == List<word>{"a", "c", "d"});
+    change("a { type nothingLikeThis; }");  // not used
+    change("e { type minMax; feilds (p); }");
+    CHECK(f.names() == List<word>{"a", "c", "d"});
+    change("d { type minMax; } a { type minMax; enabled no; } x { type minMax; timeStart 0.7; }");
+    while (r.time->run()) ++*r.time, f.execute();
+    f.end();
+    CHECK(timesOf(t, "a/0/minMax.dat") == List<scalar>{0, 0.125, 0.25, 0.375, 0.5});
+    CHECK(timesOf(t, "b/0/minMax.dat") == List<scalar>{0, 0.125});
+    CHECK(timesOf(t, "c/0/minMax.dat") == List<scalar>{0});
+    CHECK(timesOf(t, "c/0.25/minMax.dat") == List<scalar>{0.25, 0.375, 0.5});
+    CHECK(timesOf(t, "d/0.25/minMax.dat") == List<scalar>{0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1});
+    CHECK(timesOf(t, "x/0.625/minMax.dat") == List<scalar>{0.75, 0.875, 1});
+    CHECK(!isFile(t.path + "/postProcessing/e/0.5/minMax.dat"));
+}
+
 TEST_CASE("mistakes in functions")
 {
     CHECK_ERROR(wrong("a { type probe; }"),

@@ -25,10 +25,12 @@ word dotted(word name)
     return name;
 }
 
-// The dictionary that holds the entry of a dotted name, and its key there; null if there is none
+// The dictionary that holds the entry of a dotted name, and its key there; null if there is none.  A key with dots of
+// its own comes first, a pattern that would match the dots as well last
 const dictionary* holderOf(const dictionary& d, const word& name, word& key)
 {
-    if (d.found(name)) return key = name, &d;
+    const List<word> exact = d.keys();
+    if (std::find(exact.begin(), exact.end(), name) != exact.end()) return key = name, &d;
     for (size_t dot = name.find('.'); dot != word::npos; dot = name.find('.', dot + 1))
     {
         const word first = name.substr(0, dot);
@@ -36,6 +38,7 @@ const dictionary* holderOf(const dictionary& d, const word& name, word& key)
         if (const dictionary* found = holderOf(d.subDict(first), name.substr(dot + 1), key))
             return found;
     }
+    if (d.found(name)) return key = name, &d;
     return nullptr;
 }
 
@@ -121,9 +124,22 @@ bool holds(const dictionaryText& text, const word& path, const word& name, const
            wordsOf(holder->tokenList(key)) == wordsOf(tokenize(value, path));
 }
 
+// The part of a dotted name that is a value, where a dictionary is wanted
+word valueAbove(const dictionaryText& text, const word& name)
+{
+    for (size_t dot = name.find('.'); dot != word::npos; dot = name.find('.', dot + 1))
+        if (const word above = name.substr(0, dot); text.found(above) && !text.isDict(above))
+            return above;
+    return "";
+}
+
 void edit(const argList& args, dictionaryText& text, const word& path)
 {
     const word name = dotted(args.option("entry"));
+    if (const word above = valueAbove(text, name); !text.found(name) && !above.empty())
+        throw fatalError(
+            "'" + above + "' is a value and no dictionary: there is no '" + name + "' in it.",
+            {path, above, 0, 0});
     if (args.found("remove")) text.remove(name);
     else
     {
@@ -176,20 +192,21 @@ void print(const argList& args, const dictionaryText& text)
 
 int run(int argc, char** argv)
 {
-    argList args("ispfDictionary",
-                 "Prints and edits a dictionary. Without -expand, macros and #include stay as they "
-                 "are written.");
+    argList args(
+        "ispfDictionary",
+        "Prints and edits a dictionary. Entries are printed as programs read them, with macros, "
+        "#include and #if; the whole file as it is written, if not with -expand.");
     args.addArgument("dict", "the dictionary file, relative to the case");
     args.addOption("entry", "name", "the entry, with its dictionaries: solvers.p.tolerance");
     args.addSwitch("value", "print the value alone");
     args.addSwitch("keywords", "list the keywords");
-    args.addSwitch("expand", "follow macros, #include, #calc and the like");
+    args.addSwitch("expand", "print the whole file with macros, #include, #calc and the like");
     args.addOption("set", "value", "change the entry, or add it");
     args.addOption("add", "value", "add the entry; an error if it is there");
     args.addSwitch("remove", "remove the entry");
     args.addSwitch("includes", "list the files that it includes");
     args.addOption("diff", "dict", "print the entries that differ from those of another file");
-    args.addSwitch("disableFunctionEntries", "with -diff: macros and #include as they are written");
+    args.addSwitch("disableFunctionEntries", "macros, #include and #if as they are written");
     if (!args.parse(argc, argv)) return 0;
     const word path = fromFolder(args.caseFolder(), args.argument(0));
     const int edits = args.found("set") + args.found("add") + args.found("remove");
@@ -200,7 +217,10 @@ int run(int argc, char** argv)
         info() << differences(args, path, other);
         return 0;
     }
-    if (args.found("expand") && edits == 0) return printExpanded(args, path), 0;
+    const bool whole = !args.found("entry") && !args.found("keywords") && !args.found("includes");
+    const bool read = args.found("expand") || !(whole || args.found("includes"));
+    if (edits == 0 && read && !args.found("disableFunctionEntries"))
+        return printExpanded(args, path), 0;
     dictionaryText text(readText(path), path);
     if (edits > 0) edit(args, text, path);
     else if (args.found("includes")) info() << join(text.includes(), "\n") << "\n";

@@ -46,7 +46,6 @@ List<word> patchNames(const zoneGeometry& geometry)
 void writeSurfaces(const word& caseFolder, const zoneGeometry& geometry)
 {
     const word folder = caseFolder + "/constant/triSurface/";
-    std::filesystem::create_directories(folder);
     for (size_t p = 0; p < geometry.patches().size(); ++p)
     {
         if (geometry.patchSurface(label(p)).empty()) continue;
@@ -108,15 +107,15 @@ void writeParticleFiles(const word& caseFolder, const zoneGeometry& geometry,
     sites.attributes["zones"] = particles.attributes["zones"];
     sites.setAttribute("stripLayers", stripLayers);
 
-    std::filesystem::create_directories(caseFolder + "/0");
-    // One that an earlier run left would be taken for valid
-    for (const auto& [table, file] : {std::pair(&walls, "/constant/wallParticles.hdf"),
-                                      std::pair(&sites, "/constant/openSites.hdf")})
-    {
-        std::filesystem::remove(caseFolder + file);
-        if (table->size() > 0) writeParticles(*table, caseFolder + file);
-    }
-    writeParticles(particles, caseFolder + "/0/particles.hdf");
+    List<namedText> files;
+    for (const auto& [table, file] :
+         {std::pair(&walls, "/constant/wallParticles.hdf"),
+          std::pair(&sites, "/constant/openSites.hdf"), std::pair(&particles, "/0/particles.hdf")})
+        if (table->size() > 0) files.push_back(particleText(*table, caseFolder + file));
+    writeTexts(files);
+    // What an earlier run left would be taken for valid
+    if (walls.size() == 0) std::filesystem::remove(caseFolder + "/constant/wallParticles.hdf");
+    if (sites.size() == 0) std::filesystem::remove(caseFolder + "/constant/openSites.hdf");
 }
 
 }  // namespace ispf
