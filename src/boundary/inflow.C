@@ -12,17 +12,6 @@
 namespace ispf
 {
 
-namespace
-{
-
-token firstOf(const dictionary& dict, const word& key)  // of kind end if it is a dictionary
-{
-    if (dict.isDict(key) || dict.tokenList(key).empty()) return {};
-    return dict.tokenList(key).front();
-}
-
-}  // namespace
-
 bool inflow::given(const dictionary& dict)
 {
     const bool p = dict.found("p"), rate = dict.found("flowRate"),
@@ -36,7 +25,8 @@ bool inflow::given(const dictionary& dict)
     return !p;
 }
 
-inflow::inflow(const dictionary& dict, const word& caseFolder, const place& at) : face_(at.face)
+inflow::inflow(const dictionary& dict, const word& caseFolder, const place& at)
+    : face_(at.face), normal_(at.normal)
 {
     const bool isRate = dict.found("flowRate");
     const word key = isRate ? "flowRate" : "velocity";
@@ -45,28 +35,57 @@ inflow::inflow(const dictionary& dict, const word& caseFolder, const place& at) 
                   "The area of a plane that symmetry planes, cyclic patches or plane walls do not "
                   "bound on all sides is not known; give a velocity, or 'surface triSurface'");
     if (isRate) perRate_ = 1 / (face_.area() * at.images);
-    const bool isVector = firstOf(dict, key).is('(');
-    if (isVector)
-        direction_ = dict.get<vector>(key, dims::velocity), steady_ = -direction_.dot(at.normal);
-    else rate_ = Function1::New(key, dict, caseFolder, isRate ? at.rateDimensions : dims::velocity);
+    const bool isVector = !isRate && readVelocity(dict, caseFolder);
+    if (isRate) rate_ = Function1::New(key, dict, caseFolder, at.rateDimensions);
     if (dict.found("direction"))
     {
         if (isVector) dict.fail("direction", "the velocity's vector has a direction already");
         direction_ = nonZero(dict, "direction");
     }
-    if (!direction_.isZero(0))
-    {
-        const scalar in = -direction_.dot(at.normal);
-        if (std::abs(in) < 0.05 * direction_.norm() || (!isVector && in < 0))
-            dict.fail(
-                isVector ? key : "direction",
-                "points along the face or, as a direction, out of the fluid. The face's outward "
-                "normal is (" +
-                    str(at.normal[0], 3) + " " + str(at.normal[1], 3) + " " + str(at.normal[2], 3) +
-                    ")");
-        direction_ /= in, most_ = direction_.norm();
-    }
+    if (!direction_.isZero(0)) setDirection(dict, isVector ? key : "direction", at.normal);
     setProfile(dict, caseFolder, at);
+}
+
+// Is it a vector?  Whatever is no number over time is read as one; its direction is that of its largest part
+bool inflow::readVelocity(const dictionary& dict, const word& caseFolder)
+{
+    try
+    {
+        rate_ = Function1::New("velocity", dict, caseFolder, dims::velocity);
+        return false;
+    }
+    catch (const fatalError& asNumber)
+    {
+        try
+        {
+            velocity_ = vectorFunction1::New("velocity", dict, caseFolder, dims::velocity);
+        }
+        catch (const fatalError&)
+        {
+            throw asNumber;
+        }
+    }
+    const List<vector> parts = velocity_->parts();
+    for (const vector& v : parts)
+        if (v.norm() > direction_.norm()) direction_ = v;
+    for (const vector& v : parts)
+        if (v.cross(direction_).norm() > 1e-9 * direction_.squaredNorm())
+            dict.fail("velocity",
+                      "The velocity's direction changes over time, which that of an open face "
+                      "cannot: what enters is laid out along it");
+    return true;
+}
+
+// Scaled to a unit component into the fluid
+void inflow::setDirection(const dictionary& dict, const word& key, const vector& normal)
+{
+    const scalar in = -direction_.dot(normal);
+    if (std::abs(in) < 0.05 * direction_.norm() || (!velocity_ && in < 0))
+        dict.fail(key,
+                  "points along the face or, as a direction, out of the fluid. The face's outward "
+                  "normal is (" +
+                      str(normal[0], 3) + " " + str(normal[1], 3) + " " + str(normal[2], 3) + ")");
+    direction_ /= in, most_ = direction_.norm();
 }
 
 void inflow::setProfile(const dictionary& dict, const word& caseFolder, const place& at)
@@ -140,7 +159,8 @@ void inflow::tabulated(const Function1& profile, const List<char>& held)
 
 void inflow::setStep(scalar t0, scalar t1)
 {
-    mean_ = rate_ ? perRate_ * rate_->value(0.5 * (t0 + t1)) : steady_;
+    const scalar t = 0.5 * (t0 + t1);
+    mean_ = rate_ ? perRate_ * rate_->value(t) : -velocity_->value(t).dot(normal_);
 }
 
 vector inflow::velocity(const vector& foot, const vector& normal) const

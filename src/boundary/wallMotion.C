@@ -3,6 +3,7 @@
 
 #include "patchSurface.H"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ispf
@@ -23,6 +24,52 @@ tensor turnBy(scalar angle, const vector& axis)
     return Eigen::AngleAxis<scalar>(angle, axis).toRotationMatrix();
 }
 
+class alongDirection : public vectorFunction1
+{
+public:
+    alongDirection(const vector& direction, std::unique_ptr<Function1> size)
+        : direction_(direction), size_(std::move(size))
+    {
+    }
+    vector value(scalar t) const override { return size_->value(t) * direction_; }
+    List<vector> parts() const override { return {direction_}; }
+
+private:
+    vector direction_;
+    std::unique_ptr<Function1> size_;
+};
+
+class steadily : public vectorFunction1
+{
+public:
+    explicit steadily(const vector& velocity) : velocity_(velocity) {}
+    vector value(scalar t) const override { return t * velocity_; }
+    List<vector> parts() const override { return {velocity_}; }
+
+private:
+    vector velocity_;
+};
+
+// Along the entry direction of d
+std::unique_ptr<vectorFunction1> along(const dictionary& d, std::unique_ptr<Function1> size)
+{
+    return std::make_unique<alongDirection>(nonZero(d, "direction").normalized(), std::move(size));
+}
+
+bool isZero(const vectorFunction1& f)
+{
+    const List<vector> all = f.parts();
+    return std::all_of(all.begin(), all.end(), [](const vector& v) { return v.isZero(0); });
+}
+
+bool isAcross(const vectorFunction1* f, const vector& normal)
+{
+    if (!f) return false;
+    const List<vector> all = f->parts();
+    return std::any_of(all.begin(), all.end(),
+                       [&](const vector& v) { return std::abs(v.dot(normal)) > 1e-9 * v.norm(); });
+}
+
 }  // namespace
 
 void wallMotion::rotation::readAxis(const dictionary& d)
@@ -38,13 +85,12 @@ wallMotion::wallMotion(const dictionary& patch, const word& caseFolder)
 
 void wallMotion::readSlide(const dictionary& patch, const word& caseFolder)
 {
-    if (patch.isDict("velocity"))
-    {
-        const dictionary& d = patch.subDict("velocity");
-        slideDirection_ = nonZero(d, "direction").normalized();
-        slideSpeed_ = Function1::New("speed", d, caseFolder, dims::velocity);
-    }
-    else slideDirection_ = patch.getOrDefault<vector>("velocity", vector::Zero(), dims::velocity);
+    const dictionary sized = patch.isDict("velocity") ? patch.subDict("velocity") : dictionary();
+    if (sized.found("speed"))
+        slide_ = along(sized, Function1::New("speed", sized, caseFolder, dims::velocity));
+    else if (patch.found("velocity"))
+        slide_ = vectorFunction1::New("velocity", patch, caseFolder, dims::velocity);
+    if (slide_ && isZero(*slide_)) slide_ = nullptr;
     if (const dictionary* d = patch.findDict("rotation"))
     {
         spin_.readAxis(*d);
@@ -71,23 +117,26 @@ void wallMotion::readMotion(const dictionary& motion, const word& caseFolder)
     if (!steady && !given && !turn_.given())
         motion.fail("displacement",
                     "motion wants 'direction' and 'displacement', 'velocity', or 'rotation'");
-    if (steady) direction_ = motion.get<vector>("velocity", dims::velocity);
+    if (steady)
+        displacement_ = std::make_shared<steadily>(motion.get<vector>("velocity", dims::velocity));
     if (!given) return;
-    direction_ = nonZero(motion, "direction").normalized();
-    displacement_ = Function1::New("displacement", motion, caseFolder, dims::length);
+    if (motion.found("direction"))
+        displacement_ =
+            along(motion, Function1::New("displacement", motion, caseFolder, dims::length));
+    else displacement_ = vectorFunction1::New("displacement", motion, caseFolder, dims::length);
 }
 
 bool wallMotion::inPlane() const
 {
     for (const rotation* r : {&turn_, &spin_})
         if (r->given() && std::abs(r->axis[2]) < 1 - 1e-12) return false;
-    return slideDirection_[2] == 0 && (!moves_ || direction_[2] == 0);
+    return !isAcross(slide_.get(), vector::UnitZ()) &&
+           !isAcross(displacement_.get(), vector::UnitZ());
 }
 
 vector wallMotion::offset(scalar t) const
 {
-    if (!moves_) return vector::Zero();
-    return (displacement_ ? displacement_->value(t) : t) * direction_;
+    return displacement_ ? displacement_->value(t) : vector(vector::Zero());
 }
 
 bodyFrame wallMotion::frame(scalar t) const
@@ -105,7 +154,7 @@ affineVelocity wallMotion::surfaceVelocity(scalar t0, scalar t1) const
 {
     affineVelocity v;
     if (!moves_) return v;
-    v.u = (displacement_ ? displacement_->rate(t0, t1) : 1) * direction_;
+    if (displacement_) v.u = displacement_->rate(t0, t1);
     if (!turns()) return v;
     const scalar angle = turn_.angleAt(t1) - turn_.angleAt(t0);
     v.addTurn((turnBy(angle, turn_.axis) - tensor::Identity()) / (t1 - t0),
@@ -117,8 +166,7 @@ affineVelocity wallMotion::velocity(scalar t0, scalar t1) const
 {
     affineVelocity v = surfaceVelocity(t0, t1);
     const scalar t = 0.5 * (t0 + t1);
-    v.u = slideSpeed_ ? vector(v.u + slideSpeed_->value(t) * slideDirection_)
-                      : vector(slideDirection_ + v.u);
+    if (slide_) v.u += slide_->value(t);
     if (spin_.given())
         v.addTurn(cross(spin_.rate->value(t) * spin_.axis), spin_.origin + offset(t0));
     return v;
@@ -126,24 +174,27 @@ affineVelocity wallMotion::velocity(scalar t0, scalar t1) const
 
 scalar wallMotion::leavesItself(const triSurface& s) const
 {
-    scalar across[2] = {0, 0}, all[2] = {0, 0};
-    for (label t = 0; t < s.size(); ++t)
-    {
-        const vector area = s.areaVector(t);
-        const vector u[2] = {slideDirection_, spin_.axis.cross(vector(s.centre(t) - spin_.origin))};
-        for (int k = 0; k < 2; ++k)
-            across[k] += std::abs(u[k].dot(area)), all[k] += u[k].norm() * area.norm();
-    }
-    scalar most = 0;
-    for (int k = 0; k < 2; ++k)
-        if (all[k] > 0) most = std::max(most, across[k] / all[k]);
+    const auto share = [&](const auto& velocity) {
+        scalar across = 0, all = 0;
+        for (label t = 0; t < s.size(); ++t)
+        {
+            const vector area = s.areaVector(t), u = velocity(s.centre(t));
+            across += std::abs(u.dot(area)), all += u.norm() * area.norm();
+        }
+        return all > 0 ? across / all : 0;
+    };
+    scalar most =
+        share([&](const vector& x) { return vector(spin_.axis.cross(x - spin_.origin)); });
+    if (slide_)
+        for (const vector& u : slide_->parts())
+            most = std::max(most, share([&](const vector&) { return u; }));
     return most;
 }
 
 bool wallMotion::slidesWithin(const vector& normal) const
 {
-    if (std::abs(slideDirection_.dot(normal)) > 1e-9 * slideDirection_.norm()) return false;
-    return !spin_.given() || spin_.axis.cross(normal).norm() < 1e-9;
+    return !isAcross(slide_.get(), normal) &&
+           (!spin_.given() || spin_.axis.cross(normal).norm() < 1e-9);
 }
 
 }  // namespace ispf

@@ -25,6 +25,7 @@ class constant : public Function1Of<T>
 public:
     explicit constant(const T& v) : v_(v) {}
     T value(scalar) const override { return v_; }
+    List<T> parts() const override { return {v_}; }
 
 private:
     T v_;
@@ -46,6 +47,12 @@ public:
         T sum = 0 * terms_[0].a;
         for (const term& term : terms_) sum += term.a * std::pow(t, term.n);
         return sum;
+    }
+    List<T> parts() const override
+    {
+        List<T> all;
+        for (const term& term : terms_) all.push_back(term.a);
+        return all;
     }
 
 private:
@@ -77,6 +84,12 @@ public:
                                                                    : -1;
         return scale_ * shape * amplitude_->value(t) + level_;
     }
+    List<T> parts() const override
+    {
+        List<T> all = amplitude_->parts();
+        all.push_back(level_);
+        return all;
+    }
 
 private:
     bool square_;
@@ -95,6 +108,7 @@ public:
     {
     }
     T value(scalar t) const override { return scale_->value(t) * value_->value(t); }
+    List<T> parts() const override { return value_->parts(); }
 
 private:
     std::unique_ptr<Function1> scale_;
@@ -119,6 +133,7 @@ public:
         if (type_ == "quarterSineRamp") return std::sin(std::numbers::pi / 2 * x);
         return type_ == "halfCosineRamp" ? 0.5 * (1 - std::cos(std::numbers::pi * x)) : x;
     }
+    List<scalar> parts() const override { return {1}; }
 
 private:
     word type_;

@@ -14,35 +14,16 @@ namespace ispf
 namespace
 {
 
-// An acceleration; what it has along z would be lost in two dimensions
-class planar : public vectorFunction1
-{
-public:
-    planar(const dictionary& dict, const word& key, const word& caseFolder)
-        : key_(key), where_(dict.where(key)), given_(New(key, dict, caseFolder, dims::acceleration))
-    {
-    }
-    vector value(scalar t) const override
-    {
-        const vector a = given_->value(t);
-        if (a[2] != 0)
-            throw fatalError("The case is two-dimensional, in x and y: '" + key_ +
-                                 "' must not have a component along z",
-                             where_);
-        return a;
-    }
-
-private:
-    word key_;
-    fileLocation where_;
-    std::unique_ptr<vectorFunction1> given_;
-};
-
 std::shared_ptr<vectorFunction1> acceleration(const dictionary& dict, const word& key,
                                               const fsiCase& c)
 {
-    if (c.cloud.nDims == 2) return std::make_shared<planar>(dict, key, c.caseFolder());
-    return vectorFunction1::New(key, dict, c.caseFolder(), dims::acceleration);
+    std::shared_ptr<vectorFunction1> a =
+        vectorFunction1::New(key, dict, c.caseFolder(), dims::acceleration);
+    for (const vector& part : a->parts())
+        if (c.cloud.nDims == 2 && part[2] != 0)
+            dict.fail(key, "The case is two-dimensional, in x and y: '" + key +
+                               "' must not have a component along z");
+    return a;
 }
 
 }  // namespace

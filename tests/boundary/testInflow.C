@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Profiles of a given flow rate: the largest velocity over the mean is 2 in a circle, 2.0963 in a square (the series of
 // Poiseuille's flow in a duct), 3/2 between plates that slip walls close; a quarter carries a quarter; tables of r/R
+#include "core/errorOf.H"
 #include "inflow.H"
 #include "relative.H"
 #include "scene.H"
@@ -92,6 +93,16 @@ TEST_CASE("a profile by table, a direction, a vector, and what cannot be")
     const inflow whole = f.given("velocity (0.2 0 -0.1);");
     CHECK((whole.velocity({0, 0, 0}, n) - vector(0.2, 0, -0.1)).norm() < 1e-12);
     CHECK(whole.mean() == relative(0.1, 1e-9));
+
+    for (const word v :
+         {"table ((0 (0 0 0)) (1 (0.4 0 -0.2)))", "{ type polynomial; coeffs (((0.4 0 -0.2) 1)); }",
+          "{ type scale; scale { type linearRamp; duration 1; } value (0.4 0 -0.2); }"})
+    {
+        const inflow grows = f.given("velocity " + v + (v[0] == '{' ? "" : ";"));
+        CHECK((grows.velocity({0, 0, 0}, n) - vector(0.2, 0, -0.1)).norm() < 1e-12);
+    }
+    CHECK_ERROR(f.given("velocity table ((0 (0 0 1)) (1 (1 0 1)));"), "direction changes", 1);
+    CHECK_ERROR(f.given("velocity table ((0 0.1) (1 x));"), "finite number is wanted", 1);
 
     CHECK_THROWS_AS(f.given("velocity 0.1; direction (1 0 0);"), fatalError);  // along the face
     CHECK_THROWS_AS(f.given("velocity 0.1; direction (0 0 1);"), fatalError);  // out of the fluid
