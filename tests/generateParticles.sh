@@ -26,6 +26,9 @@ dict "$stl"
 generateParticles > out 2>&1 && grep -q '^water .* 1000  *+0.00' out || fail "a cube: $(cat out)"
 sed -i 's/^endsolid/facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 0\nvertex 0 10 0\nendloop\nendfacet\n&/' constant/cube.stl
 generateParticles > out 2>&1 && grep -q '^water .* 1000  *+0.00' out && grep -q 'cube.stl: triangles without area dropped: 1' out || fail "a flat triangle: $(cat out)"
+dict "file \"constant/cube.stl\"; unit um;" 0.1
+refused "a cube smaller than what is joined" "room for 0 particles" "Are dx and the unit of the file right"
+dict "$stl"
 # two dimensions: nothing leaves z = 0 where a solid is packed
 cp system/particleDict keptDict
 echo 'dx 0.01; nDims 2; zones { water { phase fluid; shape box; min (0 0 0); max (0.2 0.1 0); }

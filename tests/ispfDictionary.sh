@@ -83,6 +83,26 @@ printf 'base { a 1; }\ncopy { $base; b 3; }\n' > one; printf 'base { a 2; }\n#in
 [ "$(ispfDictionary one -diff other -disableFunctionEntries | tr -s ' \n' ' ')" = "base { a 1; } " ] || fail "raw -diff: $(ispfDictionary one -diff other -disableFunctionEntries)"
 [ "$(ispfDictionary other -diff one -disableFunctionEntries | tr -s ' \n' ' ')" = '#include "two" base { a 2; } ' ] || fail "raw -diff of an include"
 [ -z "$(ispfDictionary original -diff original)" ] || fail "-diff of a file and itself"
+# an edit is of its own entry, not of a pattern that matches it, and of all parts of a dictionary
+cat > patterns <<'END'
+solvers { "(U|p)" { tol 1; } p { $U; rel 2; } }
+".*" { type none; }
+walls { slip no; }
+walls { friction 1; }
+END
+pattern() {
+    local wanted=$1; shift; cp patterns edited
+    ispfDictionary edited "$@" > log 2>&1 || fail "$*: $(cat log)"
+    [ "$(tr -s ' \n' ' ' < edited)" = "$wanted " ] || fail "$*: $(cat edited)"
+}
+pattern 'solvers { "(U|p)" { tol 1; } } ".*" { type none; } walls { slip no; } walls { friction 1; }' -entry solvers.p -remove
+grep -q "still is an entry 'solvers.p': a pattern" log || fail "what a pattern still gives: $(cat log)"
+pattern 'solvers { "(U|p)" { tol 1; } p { $U; rel 2; tol 3; } } ".*" { type none; } walls { slip no; } walls { friction 1; }' -entry solvers.p.tol -set 3
+pattern 'solvers { "(U|p)" { tol 1; } p { $U; rel 2; } } ".*" { type none; } walls { slip no; } walls { friction 1; velocity (1 0 0); }' -entry walls.velocity -add '(1 0 0)'
+pattern 'solvers { "(U|p)" { tol 1; } p { $U; rel 2; } } ".*" { type none; } walls { slip no; } walls { friction 1; } other 4;' -entry other -set 4
+pattern 'solvers { "(U|p)" { tol 1; } p { $U; rel 2; } } ".*" { type none; } walls {x 1;}' -entry walls -set '{x 1;}'
+cp patterns edited; ispfDictionary edited -entry walls.velocity -remove > log 2>&1 && fail "removed what is not there"
+cmp -s patterns edited || fail "removed what a pattern matches: $(cat edited)"
 # parts of dictionaries and files of other kinds, as foamDictionary reads them
 cat > boundary <<'END'
 FoamFile { version 2.0; format ascii; class polyBoundaryMesh; object boundary; }

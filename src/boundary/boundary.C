@@ -34,6 +34,11 @@ void boundary::clampSolids(particleCloud& cloud, const List<vec4>& x0, const dic
         {
             const fileLocation where = patches.subDict(at.name).where("clamps");
             const label zone = cloud.zoneIndex(name, where);
+            if (at.motion.slides())
+                throw fatalError("Wall " + at.name +
+                                     " slides or turns in itself: what it clamps would tear. Let "
+                                     "it move by 'motion', or clamp to a wall that stands",
+                                 where);
             if (cloud.zones[zone].phase != phaseType::solid)
                 throw fatalError("Zone " + name + " is fluid: a wall clamps solids only", where);
             const size_t before = content_->clamped.size();

@@ -108,7 +108,9 @@ public:
         const scalar scale = dict_.getOrDefault<scalar>("scale", 1);
         List<Function1Row<T>> rows;
         List<scalar> units(n + 1, 1.0);
-        std::istringstream in(readText(path_));
+        word text = readText(path_);
+        if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);  // byte order mark
+        std::istringstream in(text);
         word line;
         for (label left = nHeader_; std::getline(in, line);)
         {

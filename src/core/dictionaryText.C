@@ -141,6 +141,46 @@ void dictionaryText::collect(const item& in, const word& name, List<const item*>
     }
 }
 
+// Those an edit is meant for: its key as it is written, in the dictionaries that programs read it from.  A pattern
+// that matches stands for other entries as well, and is left alone
+void dictionaryText::collectOwn(const item& in, const word& name, List<const item*>& found) const
+{
+    for (const item& e : in.items)
+        if (e.key == name) found.push_back(&e);
+    for (const bool patterns : {false, true})
+    {
+        for (size_t dot = name.find('.'); dot != word::npos && found.empty();
+             dot = name.find('.', dot + 1))
+        {
+            const word first = name.substr(0, dot);
+            bool there = false;
+            for (const item& e : in.items)
+            {
+                const bool isParent =
+                    e.isDict && (e.key == first ||
+                                 (patterns && e.isPattern &&
+                                  regularExpression(e.key, {file_, "", 0, 0}).matches(first)));
+                if (!isParent) continue;
+                there = true;
+                collectOwn(e, name.substr(dot + 1), found);
+            }
+            if (there) return;
+        }
+    }
+}
+
+List<const dictionaryText::item*> dictionaryText::own(const word& name) const
+{
+    List<const item*> all;
+    collectOwn(top_, name, all);
+    return all;
+}
+
+bool dictionaryText::holds(const word& name) const
+{
+    return !own(name).empty();
+}
+
 const dictionaryText::item* dictionaryText::find(const word& name) const
 {
     if (name.empty()) return &top_;
@@ -243,11 +283,13 @@ void dictionaryText::replace(size_t first, size_t last, const word& by)
 const dictionaryText::item& dictionaryText::parentOf(const word& name, word& rest) const
 {
     for (size_t dot = name.rfind('.'); dot != word::npos && dot > 0; dot = name.rfind('.', dot - 1))
-        if (const item* e = find(name.substr(0, dot)); e && e->isDict)
-        {
-            rest = name.substr(dot + 1);
-            return *e;
-        }
+    {
+        const List<const item*> all = own(name.substr(0, dot));
+        const item* e = all.empty() ? find(name.substr(0, dot)) : all.back();
+        if (!e || !e->isDict) continue;
+        rest = name.substr(dot + 1);
+        return *e;
+    }
     rest = name;
     return top_;
 }
@@ -270,8 +312,11 @@ word statement(const word& key, const word& value, const word& margin)
 
 void dictionaryText::set(const word& name, const word& value, bool append)
 {
-    const item* e = append ? nullptr : find(name);
     const bool toDict = !value.empty() && value[0] == '{';
+    // A dictionary in several parts is replaced as a whole
+    while (!append && toDict && own(name).size() > 1) erase(*own(name).front());
+    const List<const item*> all = own(name);
+    const item* e = append || all.empty() ? nullptr : all.back();
     if (e && !e->isDict && !toDict)
     {
         const bool empty = e->valueFirst == e->valueLast;
@@ -303,20 +348,22 @@ void dictionaryText::set(const word& name, const word& value, bool append)
     replace(at, closes ? std::min(next, parent.valueLast) : at, addition);
 }
 
+void dictionaryText::erase(const item& e)
+{
+    size_t first = e.first, last = e.last;
+    // with its line, if nothing else stands in it
+    const size_t lineStart = first == 0 ? 0 : text_.rfind('\n', first - 1) + 1;
+    const size_t lineEnd = std::min(text_.find('\n', last), text_.size());
+    const bool alone = text_.find_first_not_of(" \t", lineStart) == first &&
+                       text_.find_first_not_of(" \t\r", last) >= lineEnd;
+    if (alone) first = lineStart, last = std::min(lineEnd + 1, text_.size());
+    replace(first, last, "");
+}
+
 void dictionaryText::remove(const word& name)
 {
-    if (!found(name)) failMissing(name);
-    while (const item* e = name.empty() ? nullptr : find(name))
-    {
-        size_t first = e->first, last = e->last;
-        // with its line, if nothing else stands in it
-        const size_t lineStart = first == 0 ? 0 : text_.rfind('\n', first - 1) + 1;
-        const size_t lineEnd = std::min(text_.find('\n', last), text_.size());
-        const bool alone = text_.find_first_not_of(" \t", lineStart) == first &&
-                           text_.find_first_not_of(" \t\r", last) >= lineEnd;
-        if (alone) first = lineStart, last = std::min(lineEnd + 1, text_.size());
-        replace(first, last, "");
-    }
+    if (own(name).empty()) failMissing(name);
+    while (!own(name).empty()) erase(*own(name).back());
 }
 
 }  // namespace ispf

@@ -98,7 +98,9 @@ particleTable readStateOf(const Time& time)
     {
         word before;
         for (const Time::folderOfTime& f : time.folders())
-            if (f.t < time.value() && time.hasState(f.name)) before = f.name;
+            if (f.t < time.value() && f.name != time.folderName(time.value()) &&
+                time.hasState(f.name))
+                before = f.name;
         if (before.empty()) throw;
         const word advice = "\nTo continue from time " + before + ", move the folder " +
                             time.folder() + " away, or set startFrom startTime and startTime " +

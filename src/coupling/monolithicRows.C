@@ -88,6 +88,22 @@ ISPF_HOT void secondFluidRange(const view& v, scalar tau, label begin, label end
     }
 }
 
+// Fluid alone: p goes on with the gradient g beyond the strip's end
+ISPF_HOT void givenFluidRange(const view& v, scalar tau, label begin, label end, const vec4* g,
+                              scalar* cp)
+{
+    for (label i = begin; i < end; ++i)
+    {
+        pairSums sums;
+        sums.add(v.list, v.x, g, i, v.first(i), v.mid(i));
+        simd4 here = {};
+        for (std::int64_t k = v.first(i); k < v.mid(i); ++k)
+            here += v.list.F[k] * (v.x[i].s - v.x[v.list.index[k]].s);
+        here *= g[i].s;
+        cp[i] = -tau * (2 * (here[0] + here[1] + here[2]) + sums.divergence(v.B.all[i]));
+    }
+}
+
 ISPF_HOT void viscousRange(const view& v, label begin, label end, vec4* out)
 {
     for (label i = begin; i < end; ++i)
@@ -205,6 +221,16 @@ void monolithicRows::secondPass(const List<vec4>& gs, List<scalar>& cp) const
     parallelFor(cloud_->n(), [&](label b, label e) {
         if (volume_) secondRange(v, pairTau_.data(), b, e, gs.data(), cp.data());
         else secondFluidRange(v, fluidTau_, b, e, gs.data(), cp.data());
+    });
+}
+
+void monolithicRows::givenPart(const List<vec4>& g, List<scalar>& cp) const
+{
+    if (volume_) return secondPass(g, cp);
+    cp.resize(cloud_->n());
+    const view v{*list_, *B_, cloud_->x.data(), g.data(), cloud_->phase.data(), scale_.data()};
+    parallelFor(cloud_->n(), [&](label b, label e) {
+        givenFluidRange(v, fluidTau_, b, e, g.data(), cp.data());
     });
 }
 

@@ -41,6 +41,29 @@ List<std::pair<label, scalar>> monolithicSystem::pressureOffsets() const
     return offsets;
 }
 
+// The share of G p in strips that C takes from the gradient given there (monolithicRows.H)
+void monolithicSystem::leaveToGiven(List<vec4>& gs) const
+{
+    const particleCloud& cloud = c_.cloud;
+    if (!cloud.vectors.count(givenGradient)) return;
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (inStrip(i)) gs[i].setXyz((1 - monolithicRows::givenShare) * gs[i].xyz());
+}
+
+void monolithicSystem::addGiven(List<scalar>& b) const
+{
+    const particleCloud& cloud = c_.cloud;
+    const auto given = cloud.vectors.find(givenGradient);
+    if (given == cloud.vectors.end()) return;
+    gs_.assign(cloud.nAll(), vec4{});
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (inStrip(i)) gs_[i].setXyz(monolithicRows::givenShare * given->second[i].xyz());
+    cloud.fillGradientGhosts(gs_);
+    rows_.givenPart(gs_, cp_);
+    for (label i = 0; i < cloud.n(); ++i)
+        if (!cloud.pFixed[i]) b[4 * i + 3] += cloud.dx * cp_[i];
+}
+
 void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce,
                                      const List<scalar>& q, List<scalar>& b) const
 {
@@ -54,6 +77,7 @@ void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce
     // C (p - theta p^n): an offset that stays is there at both times
     for (const auto& [g, offset] : drops) phi_[g][3] += (theta - 2) * offset;
     rows_.firstPass(phi_, gp_, lap_, gs_);
+    leaveToGiven(gs_);
     cloud.fillGradientGhosts(gs_);
     for (const auto& [g, offset] : drops) gs_[g][3] += (theta - 1) * offset;
     rows_.secondPass(gs_, cp_);
@@ -78,6 +102,7 @@ void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce
             b[4 * i + a] = cloud.uFixed[i] ? cloud.Up[i][a] : m[a] / diagonal_[i];
         b[4 * i + 3] = cloud.pFixed[i] ? cloud.pGiven[i] : cloud.dx * (q[i] - gp_[i][3] - cp_[i]);
     }
+    addGiven(b);
     enclosed_.balance(b);
 }
 
@@ -90,6 +115,7 @@ void monolithicSystem::apply(const List<scalar>& x, List<scalar>& y) const
     std::copy(x.begin(), x.end(), reinterpret_cast<scalar*>(phi_.data()));
     cloud.fillGhosts(phi_, true);
     rows_.firstPass(phi_, gp_, lap_, gs_);
+    leaveToGiven(gs_);
     cloud.fillGradientGhosts(gs_);
     rows_.secondPass(gs_, cp_);
     if (K_)

@@ -37,7 +37,7 @@ struct presentState
     explicit presentState(const fsiCase& c) : cloud(c.cloud)
     {
         cloud.clearGhosts();
-        c.walls->setFlags(cloud, c.rho, c.bodyForce);
+        c.walls->setFlags(cloud, c.rho, c.bodyForceAt(c.time.value()));
         c.walls->updateGhosts(cloud);
         list.build(cloud, *c.kernel, c.walls->visible(cloud));
         B.build(cloud, list);
@@ -79,7 +79,14 @@ public:
         for (const word& w : c.walls->movingWalls())
             walls_.push_back(loadedBody::wall(w, c, dict.where()));
         for (const word& face : c.walls->openFaces())
+        {
             openFaces_.push_back(loadedBody::openFace(face, c));
+            if (!c.walls->openSurface(face).empty()) continue;
+            measuresAll_ = false;
+            warning("function object " + name + ": the extent of open face " + face +
+                    " is not known, a plane that nothing bounds: openPower and openWork are "
+                    "nan. Take surface triSurface");
+        }
     }
 
     void execute() override { advance(); }
@@ -93,7 +100,7 @@ public:
             << whole * kinetic
             << (case_.structure ? whole * case_.structure->energy(case_.cloud.x) : 0)
             << whole * potential << now_.dissipation << now_.wallPower << dissipated_ << wallWork_
-            << now_.openPower << openWork_;
+            << (measuresAll_ ? now_.openPower : nan) << (measuresAll_ ? openWork_ : nan);
         file_.endRow();
     }
 
@@ -120,15 +127,15 @@ private:
         const particleCloud& cloud = case_.cloud;
         particleCloud flagged = cloud;
         flagged.clearGhosts();
-        case_.walls->setFlags(flagged, case_.rho, case_.bodyForce);
+        const List<vector> b = case_.bodyForceAt(case_.time.value());
+        case_.walls->setFlags(flagged, case_.rho, b);
         const scalar mass = case_.rho * cloud.volume();
         scalar kinetic = 0, potential = 0;
         for (label i = 0; i < cloud.n(); ++i)
         {
             if (flagged.pFixed[i]) continue;
             kinetic += 0.5 * mass * cloud.Up[i].xyz().squaredNorm();
-            if (!case_.bodyForce.empty())
-                potential -= mass * case_.bodyForce[cloud.zone[i]].dot(cloud.x[i].xyz());
+            if (!b.empty()) potential -= mass * b[cloud.zone[i]].dot(cloud.x[i].xyz());
         }
         return {kinetic, potential};
     }
@@ -174,8 +181,9 @@ private:
     // What pushes the fluid [m/s^2]
     vector fluidForce() const
     {
-        for (size_t zone = 0; zone < case_.bodyForce.size(); ++zone)
-            if (case_.cloud.zones[zone].phase == phaseType::fluid) return case_.bodyForce[zone];
+        const List<vector> b = case_.bodyForceAt(case_.time.value());
+        for (size_t zone = 0; zone < b.size(); ++zone)
+            if (case_.cloud.zones[zone].phase == phaseType::fluid) return b[zone];
         return vector::Zero();
     }
 
@@ -194,7 +202,9 @@ private:
     }
 
     dataFile file_;
+    static constexpr scalar nan = std::numeric_limits<scalar>::quiet_NaN();
     List<loadedBody> walls_, openFaces_;
+    bool measuresAll_ = true;
     powers now_;
     scalar time_ = 0, dissipated_ = 0, wallWork_ = 0, openWork_ = 0;
     bool known_ = false;

@@ -106,6 +106,15 @@ TEST_CASE("csvFile: columns by number and by name, scale, comments, separators")
     CHECK_ERROR(f("separator \"\\t\";"), "must increase", 2);
 }
 
+TEST_CASE("csvFile: a byte order mark is no part of the first name")
+{
+    const temporaryFolder c;
+    c.write("flow.csv", "\xef\xbb\xbftime,flow\n0,1\n1,3\n");
+    const dictionary d = dictionary::fromString(
+        "f { type csvFile; file \"flow.csv\"; nHeaderLine 1; columns (time flow); }");
+    CHECK(Function1::New("f", d, c.path)->value(0.5) == doctest::Approx(2));
+}
+
 TEST_CASE("formulas")
 {
     const auto s = made("f { type sine; frequency 2; amplitude 3; scale 0.5; level 1; t0 0.125; }");

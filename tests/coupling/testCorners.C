@@ -164,8 +164,10 @@ TEST_CASE("a uniform stream across a box that is open on all sides")
         for (int s = 0; s < 12; ++s)
         {
             r.run(2.5e-3, 10);
-            for (label i = 0; i < r.c.cloud.n(); ++i)
-                worst = std::max(worst, (r.c.cloud.Up[i].xyz() - box.velocity).norm());
+            for (label i = 0; i < r.c.cloud.n();
+                 ++i)  // what has just been made beyond a face is at rest
+                if (!r.c.cloud.beyondOpen(i) && r.c.walls->inside(r.c.cloud.x[i].xyz()))
+                    worst = std::max(worst, (r.c.cloud.Up[i].xyz() - box.velocity).norm());
         }
         CHECK(worst < 0.12 * U);
     }

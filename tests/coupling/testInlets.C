@@ -72,7 +72,7 @@ TEST_CASE("a parabolic inlet: Poiseuille's profile and pressure drop")
                 }
             }
             CHECK(worst < 0.1 * U);
-            // measured: projection with particles 1.7 % too much, all others within 0.5 %
+            // measured: projection with particles 1.7 % too much, all others within 0.7 %
             const scalar limit =
                 b.coupling == "projection" && kind == word("particles") ? 0.025 : 0.01;
             CHECK(flux == relative(2.4e-4, limit));
@@ -116,28 +116,38 @@ scalar inside(const boxCase& b, const particleCloud& cloud)
 
 }  // namespace
 
+// Runs that differ by rounding come to differ altogether; none may jump.  kicks [dx]: of the start
 TEST_CASE("a flow rate that reverses ten times: the channel keeps its volume, what enters leaves")
 {
-    for (const char* coupling : {"projection", "monolithic"})
-    {
-        CAPTURE(coupling);
-        boxCase b = channelWith(
-            "type open; profile parabolic; flowRate { type sine; frequency 2.5; "
-            "amplitude 1e-3; scale 1; level 0; t0 0; }");
-        b.coupling = coupling;
-        runningBox r(b);
-        const scalar before = inside(b, r.c.cloud), dt = 4e-3;
-        scalar missing = 0;
-        for (int k = 0; k < 500; ++k)
+    for (const auto& [coupling, kicks] : {std::pair("projection", 1), std::pair("monolithic", 8)})
+        for (int kick = 0; kick < kicks; ++kick)
         {
-            r.run(dt, 1);
-            const List<patchBalance>& books = r.c.walls->balance();
-            REQUIRE(books[0].flux == relative(-1e-3 * std::sin(5 * M_PI * (k + 0.5) * dt), 1e-6));
-            missing += std::abs(books[0].flux + books[1].flux) / 500;
+            CAPTURE(coupling);
+            CAPTURE(kick);
+            boxCase b = channelWith(
+                "type open; profile parabolic; flowRate { type sine; frequency 2.5; "
+                "amplitude 1e-3; scale 1; level 0; t0 0; }");
+            b.coupling = coupling;
+            runningBox r(b);
+            for (label i = 0; i < r.c.cloud.n(); ++i)
+                r.c.cloud.x[i][1] += 1e-9 * b.dx * kick * std::sin(1.7 * i + kick);
+            const scalar before = inside(b, r.c.cloud), dt = 4e-3;
+            scalar missing = 0, highest = 0;
+            for (int k = 0; k < 500; ++k)
+            {
+                r.run(dt, 1);
+                const List<patchBalance>& books = r.c.walls->balance();
+                REQUIRE(books[0].flux ==
+                        relative(-1e-3 * std::sin(5 * M_PI * (k + 0.5) * dt), 1e-6));
+                missing += std::abs(books[0].flux + books[1].flux) / 500;
+                for (label i = 0; i < r.c.cloud.n(); ++i)
+                    highest = std::max(highest, std::abs(r.c.cloud.Up[i][3]));
+            }
+            CHECK(missing < 0.03e-3);
+            CHECK(inside(b, r.c.cloud) == relative(before, 0.005));
+            // rho dU/dt L and friction together; what a jump of the flow in one step makes is 1000 Pa
+            CHECK(highest < 200);
         }
-        CHECK(missing < 0.03e-3);
-        CHECK(inside(b, r.c.cloud) == relative(before, 0.005));
-    }
 }
 
 TEST_CASE("fluid that cannot leave is refused, with both couplings")

@@ -136,15 +136,22 @@ word valueAbove(const dictionaryText& text, const word& name)
 void edit(const argList& args, dictionaryText& text, const word& path)
 {
     const word name = dotted(args.option("entry"));
-    if (const word above = valueAbove(text, name); !text.found(name) && !above.empty())
+    if (const word above = valueAbove(text, name); !text.holds(name) && !above.empty())
         throw fatalError(
             "'" + above + "' is a value and no dictionary: there is no '" + name + "' in it.",
             {path, above, 0, 0});
-    if (args.found("remove")) text.remove(name);
+    if (args.found("remove"))
+    {
+        text.remove(name);
+        word key;
+        if (holderOf(dictionary::fromPart(text.text(), path), name, key))
+            warning("There still is an entry '" + name +
+                    "': a pattern matches it, or a macro or an included file brings it");
+    }
     else
     {
         const word value = args.option(args.found("set") ? "set" : "add");
-        if (args.found("add") && text.found(name))
+        if (args.found("add") && text.holds(name))
             throw fatalError(
                 "There is an entry '" + name + "' already; -set changes it, -add does not.",
                 {path, name, 0, 0});

@@ -136,8 +136,6 @@ private:
         line("volume", flat_ ? str(volume / (s_.bounds().max[2] - s_.bounds().min[2])) +
                                    " m2, about " + str(std::round(n)) + " particles"
                              : str(volume) + " m3, about " + str(std::round(n)) + " particles");
-        line("surface", "closed, normals outwards, area " + str(s_.area()) + " m2, " +
-                            std::to_string(nParts()) + " part(s)");
         const word has =
             name_ + " has room for " + str(n, 3) + " particles of spacing dx = " + str(dx_) + " m";
         if (n < fewestParticles)
@@ -145,6 +143,8 @@ private:
                              ": it could not hold a particle worth the name. Are dx and the unit "
                              "of the file right?" +
                              otherUnits(n));
+        line("surface", "closed, normals outwards, area " + str(s_.area()) + " m2, " +
+                            std::to_string(nParts()) + " part(s)");
         if (n > mostParticles)
             throw fatalError(has + ", but a case can hold " + str(mostParticles) +
                              ". Are dx and the unit of the file right?" + otherUnits(n));
