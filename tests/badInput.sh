@@ -96,6 +96,8 @@ accepted "for f in $control system/sph* constant/boundary; do { printf '\xef\xbb
 accepted "for f in $control constant/boundary constant/physicalProperties; do printf '%s' \"\$(cat \$f)\" > x; mv x \$f; done" ispfFsiFoam
 accepted "sed -i 's/\$/\r/' system/particleDict constant/boundary" generateParticles
 
+refused "constant/g: it is a folder" "rm -f constant/g; mkdir constant/g" ispfFsiFoam
+
 # ---- HDF5 -------------------------------------------------------------------------------------------------------
 foreign() { h5repack -l CHUNK=2 0.02/particles.hdf x > /dev/null 2>&1; printf 'not HDF5 at all' > "$1"; rm -f x; }
 for broken in "truncate -s 3000" "truncate -s 100" "truncate -s 0" foreign; do

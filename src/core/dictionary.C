@@ -108,7 +108,7 @@ dictionary dictionary::fromFile(const word& path)
 
 dictionary dictionary::fromFileIfPresent(const word& path)
 {
-    if (isFile(path)) return fromFile(path);
+    if (isFile(path) || isFolder(path)) return fromFile(path);
     dictionary d;
     d.content_->path = path;
     return d;
