@@ -166,7 +166,8 @@ void reportPacking(const zoneGeometry& geometry, const placedParticles& placed, 
             warning("Particles of zone " + name +
                     ", their images beyond symmetry planes included, are " + str(q.minDistance, 3) +
                     " dx apart: " +
-                    (bodyFitted ? "the zone is thinner there than a particle; choose a finer dx"
+                    (bodyFitted ? "no whole number of layers fits the zone there; choose a dx that "
+                                  "divides its thickness"
                                 : "a lattice fits planes along its axes at whole or half spacings "
                                   "only; choose placement bodyFitted"));
         if (std::abs(q.volumeError) > 0.005)
