@@ -25,7 +25,7 @@ for file in $(ls -d */particles.hdf | sort -g); do
 done | awk '
     function put() { if (n) printf "%.6g %d 3 %.6g %.6g\n", time, n, low, high }
     NF == 1 && !/[{}]/ && !inData { put(); time = $1; n = 0 }
-    /DATA {/ { inData = 1; next }
+    /DATA {/ { inData = !n; next }  # not that of the attributes behind
     inData && /}/ { inData = 0; next }
     inData { v = $1 + 0; if (!n++ || v < low) low = v; if (n == 1 || v > high) high = v }
     END { put() }' > written

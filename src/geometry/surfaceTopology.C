@@ -3,6 +3,7 @@
 
 #include "windingNumber.H"
 #include <algorithm>
+#include <numeric>
 
 namespace ispf
 {
@@ -169,23 +170,75 @@ List<label> connectedComponents(const triSurface& s)
 namespace
 {
 
-// A component's triangles with nodes of their own
-List<triSurface> separated(const triSurface& s, const List<label>& component, label n)
+// Calls f(first, last) for the sides that patch p has in common with itself along each of its edges
+template <class F>
+void forOwnEdges(List<side> sides, const List<label>& patch, F&& f)
+{
+    std::stable_sort(sides.begin(), sides.end(), [&](const side& a, const side& b) {
+        return std::tie(a.low, a.high, patch[a.triangle]) <
+               std::tie(b.low, b.high, patch[b.triangle]);
+    });
+    for (size_t i = 0, j; i < sides.size(); i = j)
+    {
+        for (j = i + 1; j < sides.size() && sides[j].sameEdge(sides[i]) &&
+                        patch[sides[j].triangle] == patch[sides[i].triangle];)
+            ++j;
+        f(&sides[i], &sides[i] + (j - i));
+    }
+}
+
+label balance(const side* begin, const side* end)
+{
+    label sum = 0;
+    for (const side* k = begin; k != end; ++k) sum += k->forward ? 1 : -1;
+    return sum;
+}
+
+List<char> closedParts(const List<side>& sides, const List<label>& part, label n)
+{
+    List<char> closed(n, 1);
+    forOwnEdges(sides, part, [&](const side* begin, const side* end) {
+        if (balance(begin, end) != 0) closed[part[begin->triangle]] = 0;
+    });
+    return closed;
+}
+
+// Components that close only together, along edges where more than two triangles meet, become one part: the
+// same triangles can bound bodies that cross and bodies that touch, so only the sides given tell
+label joinOpenComponents(const List<side>& sides, List<label>& part, label n)
+{
+    const List<char> closed = closedParts(sides, part, n);
+    List<label> first(n);
+    std::iota(first.begin(), first.end(), 0);
+    const auto root = [&](label c) {
+        while (first[c] != c) c = first[c] = first[first[c]];
+        return c;
+    };
+    forEdges(sides, [&](size_t i, size_t j) {
+        label last = -1;
+        for (size_t k = i; k < j; ++k)
+        {
+            const label c = part[sides[k].triangle];
+            if (closed[c]) continue;
+            if (last >= 0) first[std::max(root(c), root(last))] = std::min(root(c), root(last));
+            last = c;
+        }
+    });
+    List<label> number(n, -1);
+    label count = 0;
+    for (label c = 0; c < n; ++c)
+        if (root(c) == c) number[c] = count++;
+    for (label& p : part) p = number[root(p)];
+    return count;
+}
+
+// A part's triangles with nodes of their own
+List<triSurface> separated(const triSurface& s, const List<label>& part, label n)
 {
     List<triSurface> parts(n);
     for (label t = 0; t < s.size(); ++t)
-        parts[component[t]].add(s.corner(t, 0), s.corner(t, 1), s.corner(t, 2), 0);
+        parts[part[t]].add(s.corner(t, 0), s.corner(t, 1), s.corner(t, 2), 0);
     return parts;
-}
-
-List<char> closedComponents(const triSurface& s, const List<label>& component, label n)
-{
-    List<char> open(s.nodes.size(), 0), closed(n, 1);
-    for (const auto& [a, b] : openHalfEdges(s)) open[a] = open[b] = 1;
-    for (label t = 0; t < s.size(); ++t)
-        for (const label node : s.triangles[t])
-            if (open[node]) closed[component[t]] = 0;
-    return closed;
 }
 
 }  // namespace
@@ -193,16 +246,18 @@ List<char> closedComponents(const triSurface& s, const List<label>& component, l
 label orientOutward(triSurface& s)
 {
     label turned = makeConsistent(s);
-    const List<label> component = connectedComponents(s);
-    const label n = s.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
-    const List<triSurface> parts = separated(s, component, n);
+    const List<side> sides = sortedSides(s);
+    List<label> part = connectedComponents(s);
+    const label n = joinOpenComponents(
+        sides, part, s.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()));
+    const List<triSurface> parts = separated(s, part, n);
     const auto within = [](const boundBox& a, const boundBox& b) {
         return b.distSqr(a.min) == 0 && b.distSqr(a.max) == 0;
     };
     List<label> depth(n, 0);  // the wall of a cavity lies inside an odd number
     List<boundBox> boxes;
-    for (const triSurface& part : parts) boxes.push_back(part.bounds());
-    const List<char> closed = closedComponents(s, component, n);
+    for (const triSurface& p : parts) boxes.push_back(p.bounds());
+    const List<char> closed = closedParts(sides, part, n);
     for (label o = 0; o < n && n > 1; ++o)
     {
         if (!closed[o]) continue;
@@ -215,7 +270,7 @@ label orientOutward(triSurface& s)
     List<char> inward(n, 0);
     for (label c = 0; c < n; ++c) inward[c] = (parts[c].volume() < 0) != (depth[c] % 2 == 1);
     for (label t = 0; t < s.size(); ++t)
-        if (inward[component[t]]) turn(s, t), ++turned;
+        if (inward[part[t]]) turn(s, t), ++turned;
     return turned;
 }
 

@@ -85,7 +85,7 @@ label facetWithin(const triSurface& s, scalar probe)
             for (label t = begin; t < end; ++t)
             {
                 const vector c = s.centre(t), step = probe * s.normal(t);
-                if (winding.value(c - step) < 1.5) continue;
+                if (winding.value(c - step) < 1.5 && winding.value(c + step) > -0.5) continue;
                 label now = least;
                 while (t < now && !least.compare_exchange_weak(now, t)) {}
                 return;

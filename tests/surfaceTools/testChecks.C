@@ -38,6 +38,38 @@ triSurface openTube(const vector& from, const vector& to, scalar radius, int n, 
     return s;
 }
 
+// A cube of edge 2 whose faces have 2 x 2 squares
+triSurface latticeCube(const vector& at, bool inward = false)
+{
+    triSurface s;
+    s.addPatch("cube");
+    for (int axis = 0; axis < 3; ++axis)
+        for (int m = 0; m < 8; ++m)
+        {
+            const bool far = m & 1;
+            const auto corner = [&](int a, int b) {
+                vector c = at;
+                c[axis] += 2 * far;
+                c[(axis + 1) % 3] += (m >> 1 & 1) + a;
+                c[(axis + 2) % 3] += (m >> 2 & 1) + b;
+                return c;
+            };
+            const vector b = corner(1, 0), d = corner(0, 1);
+            s.add(corner(0, 0), far == inward ? d : b, corner(1, 1), 0);
+            s.add(corner(0, 0), corner(1, 1), far == inward ? b : d, 0);
+        }
+    return s;
+}
+
+triSurface bothCubes(const vector& shift, bool firstInward, bool secondInward)
+{
+    triSurface s = latticeCube({0, 0, 0}, firstInward);
+    s.append(latticeCube(shift, secondInward));
+    s.weld(1e-9);
+    orientOutward(s);
+    return s;
+}
+
 word refusalOf(triSurface s, const List<capRequest>& requests, scalar tolerance)
 {
     try
@@ -81,6 +113,29 @@ TEST_CASE("facets that cross are found with the place, facets that touch are not
     CHECK(facetCrossings(surfaceSearch(aligned), 1e-9, 10).empty());
     CHECK(facetWithin(aligned, 1e-4) >= 0);
     CHECK(facetWithin(sphere({0, 0, 0}, 1, 4), 1e-4) == -1);
+}
+
+TEST_CASE(
+    "bodies that cross along edges of their meshes are found out, those that touch along one are "
+    "not")
+{
+    for (const bool inward : {false, true})
+    {
+        const triSurface crossing = bothCubes({1, 1, 1}, inward, inward);
+        CHECK(checkClosed(crossing).closed());
+        CHECK(crossing.volume() == doctest::Approx(16));
+        CHECK(facetCrossings(surfaceSearch(crossing), 1e-9, 10).empty());
+        CHECK(facetWithin(crossing, 1e-4) >= 0);
+        CHECK(facetWithin(bothCubes({1, 1, 1}, inward, !inward), 1e-4) >= 0);
+        for (const vector& shift : {vector(2, 2, 0), vector(2, 1, 2), vector(2, 2, 2)})
+            for (const bool other : {false, true})
+            {
+                const triSurface touching = bothCubes(shift, inward, other);
+                CHECK(checkClosed(touching).closed());
+                CHECK(touching.volume() == doctest::Approx(16));
+                CHECK(facetWithin(touching, 1e-4) == -1);
+            }
+    }
 }
 
 TEST_CASE("thinnest place and narrowest gap")
