@@ -105,6 +105,35 @@ echo "functions { e { type energy; } } endTime 0.1;" >> $control
 place; solved
 awk '!/^#/ { if (!n++) { e0 = $2; bad = ($2/0.25 - 1)^2 > 1e-8 || ($5/(16*3.14159265^2*0.01*0.25) - 1)^2 > 1e-4 } last = ($2 + $7)/e0 }
     END { exit bad || n != 51 || (last - 1)^2 > 1e-4 }' postProcessing/e/0/energy.dat || fail "Taylor-Green: $(sed -n '3p;$p' postProcessing/e/0/energy.dat)"
+
+# ---- forces: shear between plates, and what a pressure drop pushes through them --------------------------
+for walls in particles mirror; do
+    mkdir -p "$scratch/plates.$walls"/{constant,system}; cd "$scratch/plates.$walls" || exit 1
+    echo "rho 1000; mu 1000;" > constant/physicalProperties
+    echo "ends { type cyclic; point (0 0 0); separation (0.4 0 0); }
+        lid { type wall; representation $walls; point (0 1 0); normal (0 1 0); velocity (1 0 0); }
+        floor { type wall; representation $walls; point (0 0 0); normal (0 -1 0); }" > constant/boundary
+    echo 'dx 0.04; nDims 2; zones { f { phase fluid; shape box; min (0 0 0); max (0.4 1 0); U ("y" 0 0); } }' > system/particleDict
+    echo "coupling projection;" > system/sphSolution; : > system/sphSchemes
+    echo "endTime 0.5; deltaT 0.005; writeControl runTime; writeInterval 0.1; functions { f { type forces; patches (lid floor); } }" > $control
+    place; solved
+    # mu U/H of 0.4 m; steady from the start, so the last half
+    for wall in lid floor; do
+        tr -d '()' < postProcessing/f/0/force_$wall.dat | awk '$1 > 0.25 { sum += $8; ++n } END { f = sum/n/400; exit !(f*f > 0.97^2 && f*f < 1.02^2) }' ||
+            fail "plates of $walls: $(tail -n 1 postProcessing/f/0/force_$wall.dat)"
+    done
+    mv postProcessing written; ispfPostProcess > log 2>&1 || fail "forces: $(tail -n 5 log)"
+    grep '^0.3 ' written/f/0/force.dat | cmp -s - <(grep '^0.3 ' postProcessing/f/0/force.dat) ||
+        fail "forces afterwards: $(grep -h '^0.3 ' {written,postProcessing}/f/0/force.dat)"
+    rm -r 0.* written postProcessing
+    sed -i 's/velocity (1 0 0);//; s/separation (0.4 0 0);/& pressureDrop 1000;/' constant/boundary
+    sed -i 's/U ("y" 0 0)/U ("0.5*1000\/0.4\/1000*y*(1-y)" 0 0)/' system/particleDict
+    echo "coupling monolithic;" > system/sphSolution  # projection slips at the walls by the order of its step
+    place; solved
+    # both walls together hold what the drop pushes
+    tr -d '()' < postProcessing/f/0/force.dat | awk '$1 > 0.25 { sum += $8; ++n } END { f = sum/n/1000; exit !(f > 0.98 && f < 1.02) }' ||
+        fail "a drop between $walls: $(tail -n 1 postProcessing/f/0/force.dat)"
+done
 newCase membrane bulging
 ramp=$(awk 'BEGIN { for (i = 0; i <= 50; ++i) { t = i*0.0025; printf "(%.6g %.8g)", t, 0.5*t*t } }')
 sed -i "s/displacement { .* } }/displacement table ($ramp); }/" constant/boundary

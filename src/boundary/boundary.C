@@ -189,6 +189,14 @@ bool boundary::isTwoSided(const word& name) const
     return content_->walls.named(name).twoSided;
 }
 
+List<word> boundary::noSlipWalls() const
+{
+    List<word> names;
+    for (const wall& w : content_->walls.walls())
+        if (!w.slip) names.push_back(w.name);
+    return names;
+}
+
 List<word> boundary::movingWalls() const
 {
     List<word> names;

@@ -9,7 +9,9 @@
 //     potential     - sum rho V b.x, b the body force of each zone
 //     dissipation   1/2 mu sum_i V sum_j (c_i + c_j) |F_ij| |u_i - u_j|^2, what the viscosity's own pair sum
 //                   (sphc::laplacian) takes out; pairs with images count half, the other half is the image's
-//     wallPower     what moving walls put in: minus the traction of surfaceFit times their velocity, of the step ahead
+//                   less mu int u.W n dA on turning walls, W the gradient of their velocity: 2 mu int D:D dV
+//     wallPower     what moving walls put in: minus the load on them, see bodyLoad.H, times their velocity, of the step
+//                   ahead
 //     openPower     what comes in through open faces: - int (p + 1/2 rho u^2 - rho b.x) u.n - u.tau.n dA, by surfaceFit
 //     dissipated, wallWork, openWork    their integrals since the case began, by the trapezoidal rule over the steps
 //                   at which it is executed
@@ -18,7 +20,7 @@
 // implicit steps damp by some dt/2 sum rho V (du/dt)^2.
 #include "functionObject.H"
 
-#include "loadedBody.H"
+#include "bodyLoad.H"
 #include "sphc.H"
 
 namespace ispf
@@ -26,24 +28,6 @@ namespace ispf
 
 namespace
 {
-
-// Neighbours of the particles where they stand, without a change to the case
-struct presentState
-{
-    particleCloud cloud;
-    neighbourList list;
-    kernelCorrection B;
-
-    explicit presentState(const fsiCase& c) : cloud(c.cloud)
-    {
-        cloud.clearGhosts();
-        c.walls->setFlags(cloud, c.rho, c.bodyForceAt(c.time.value()));
-        c.walls->updateGhosts(cloud);
-        list.build(cloud, *c.kernel, c.walls->visible(cloud));
-        B.build(cloud, list);
-        cloud.fillGhosts(cloud.Up, false);
-    }
-};
 
 scalar dissipationOf(const presentState& s, scalar mu)
 {
@@ -145,20 +129,28 @@ private:
         const presentState s(case_);
         powers p;
         p.dissipation = dissipationOf(s, case_.mu);
-        for (const loadedBody& wall : walls_)
-            for (const loadedBody::side& side : wall.sides())
-                for (size_t k = 0; k < side.facets.size(); ++k)
-                {
-                    const fluidAt& f = side.fluid[k];
-                    if (!f.covered) continue;
-                    const vector& area = side.facets[k].area;
-                    const vector onWall = f.p * area - viscousStress(f, case_.mu) * area;
-                    p.wallPower -=
-                        onWall.dot(case_.walls->wallVelocity(wall.name(), side.facets[k].centre));
-                }
+        const pairFriction friction(case_, s);
+        for (const loadedBody& wall : walls_) addWall(wall, friction, p);
         p.openPower = openPower();
         const scalar whole = case_.walls->symmetryFactor();
         return {whole * p.dissipation, whole * p.wallPower, whole * p.openPower};
+    }
+
+    // A rigid body's power.  The pair sum is mu int |grad u|^2 dV; what heats the fluid is mu int u.W n dA less where a
+    // wall turns, W its velocity's gradient
+    void addWall(const loadedBody& wall, const pairFriction& friction, powers& p) const
+    {
+        const auto velocity = [&](const vector& x) {
+            return case_.walls->wallVelocity(wall.name(), x);
+        };
+        const bodyLoad load = loadOn(wall, case_, friction);
+        const tensor W = pairFriction::turnOf(wall.name(), case_);
+        const vector omega(W(2, 1), W(0, 2), W(1, 0));
+        p.wallPower -= velocity(vector::Zero()).dot(load.total()) + omega.dot(load.totalMoment());
+        if (omega.isZero()) return;
+        for (const loadedBody::side& side : wall.sides())
+            for (const facet& f : side.facets)
+                p.dissipation -= case_.mu * velocity(f.centre).dot(W * f.area);
     }
 
     scalar openPower() const

@@ -3,14 +3,12 @@
 //
 //     drag { type forces; patches (lid walls); zones (wall); CofR (0 0 0); pRef 0; }
 //
-//     F = int (p - pRef) n dA - int mu (grad U + grad U^T) n dA        n out of the fluid
-//
-// p and grad U at the surface by surfaceFit.  force.dat and moment.dat hold the sum over all bodies as OpenFOAM's;
-// where there are several, force_<body>.dat and moment_<body>.dat each of them.  `covered` is the share of the area
-// that has particles before it; the rest counts nothing.  Of the modelled part where symmetry planes cut a body.
+// See bodyLoad.H.  force.dat and moment.dat hold the sum over all bodies as OpenFOAM's; where there are several,
+// force_<body>.dat and moment_<body>.dat each of them.  `covered` is the share of the area that has particles before
+// it; the rest counts nothing.  Of the modelled part where symmetry planes cut a body.
 #include "functionObject.H"
 
-#include "loadedBody.H"
+#include "bodyLoad.H"
 
 #include <ostream>
 
@@ -19,20 +17,6 @@ namespace ispf
 
 namespace
 {
-
-struct load
-{
-    vector pressure = vector::Zero(), viscous = vector::Zero();
-    vector pressureMoment = vector::Zero(), viscousMoment = vector::Zero();
-    scalar area = 0, covered = 0;
-
-    void add(const load& other)
-    {
-        pressure += other.pressure, viscous += other.viscous;
-        pressureMoment += other.pressureMoment, viscousMoment += other.viscousMoment;
-        area += other.area, covered += other.covered;
-    }
-};
 
 class forces : public functionObject
 {
@@ -56,10 +40,11 @@ public:
 
     void write() override
     {
-        load sum;
+        bodyLoad sum;
+        const pairFriction friction(case_);
         for (size_t k = 0; k < bodies_.size(); ++k)
         {
-            const load part = loadOf(bodies_[k]);
+            const bodyLoad part = loadOn(bodies_[k], case_, friction, {centre_, pRef_});
             sum.add(part);
             if (files_.size() > 1) put(files_[k + 1], part);
         }
@@ -88,33 +73,13 @@ private:
                 table("moment" + suffix + ".dat", {"Moment", about}, ofMoment, 9)};
     }
 
-    load loadOf(const loadedBody& body) const
-    {
-        load sum;
-        for (const loadedBody::side& s : body.sides())
-            for (size_t k = 0; k < s.facets.size(); ++k)
-            {
-                const facet& f = s.facets[k];
-                sum.area += f.area.norm();
-                if (!s.fluid[k].covered) continue;
-                sum.covered += f.area.norm();
-                const vector p = (s.fluid[k].p - pRef_) * f.area;
-                const vector v = -viscousStress(s.fluid[k], case_.mu) * f.area;
-                sum.pressure += p, sum.viscous += v;
-                sum.pressureMoment += (f.centre - centre_).cross(p);
-                sum.viscousMoment += (f.centre - centre_).cross(v);
-            }
-        return sum;
-    }
-
-    void put(pairOfFiles& files, const load& l) const
+    void put(pairOfFiles& files, const bodyLoad& l) const
     {
         const scalar t = case_.time.value();
-        files.force.begin(t) << vector(l.pressure + l.viscous) << l.pressure << l.viscous
+        files.force.begin(t) << l.total() << l.pressure << l.viscous
                              << (l.area > 0 ? l.covered / l.area : 0);
         files.force.endRow();
-        files.moment.begin(t) << vector(l.pressureMoment + l.viscousMoment) << l.pressureMoment
-                              << l.viscousMoment;
+        files.moment.begin(t) << l.totalMoment() << l.pressureMoment << l.viscousMoment;
         files.moment.endRow();
     }
 

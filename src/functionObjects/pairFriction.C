@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pairFriction.H"
+
+#include "sphc.H"
+#include "surfaceSearch.H"
+
+namespace ispf
+{
+
+namespace
+{
+
+// Which body a neighbour of the fluid belongs to
+class bodyFinder
+{
+public:
+    bodyFinder(const fsiCase& c, const particleCloud& cloud)
+        : cloud_(cloud), walls_(c.walls->noSlipWalls())
+    {
+        for (const word& w : walls_)
+        {
+            if (walls_.size() == 1) continue;
+            triSurface s = c.walls->surfaceOf(w, c.cloud);
+            s.weld(1e-4 * cloud.dx);
+            surfaces_.emplace_back(std::move(s));
+        }
+    }
+
+    const List<word>& walls() const { return walls_; }
+    label n() const { return label(walls_.size() + cloud_.zones.size()); }
+
+    // The wall, or the zone behind all of them; -1: none
+    label of(label i, label j) const
+    {
+        const label owner = cloud_.ownerOf(j);
+        if (owner >= 0 && !cloud_.isFluid(owner)) return label(walls_.size()) + cloud_.zone[owner];
+        if (j < cloud_.n() || !standsForWall(j) || walls_.empty()) return -1;
+        const vector at = 0.5 * (cloud_.x[i].xyz() + cloud_.x[j].xyz());
+        label nearest = 0;
+        scalar distance = std::numeric_limits<scalar>::max();
+        for (label w = 0; w < label(surfaces_.size()); ++w)
+            if (const surfacePoint p = surfaces_[w].nearest(at, distance); p.found)
+                nearest = w, distance = p.distance;
+        return nearest;
+    }
+
+private:
+    // A rigid particle, or an image that does not move as its position is mirrored
+    bool standsForWall(label g) const
+    {
+        if (cloud_.phase[g] == phaseType::rigid) return true;
+        const ghostRule& rule = cloud_.ruleOf(g);
+        return (rule.M.topLeftCorner<3, 3>() - rule.R).cwiseAbs().maxCoeff() > 0.5;
+    }
+
+    const particleCloud& cloud_;
+    List<word> walls_;
+    List<surfaceSearch> surfaces_;
+};
+
+// On each body from one particle of the fluid
+class pairSum
+{
+public:
+    pairSum(const fsiCase& c, const presentState& s)
+        : case_(c),
+          state_(s),
+          bodies_(c, s.cloud),
+          turn_(bodies_.n(), tensor::Zero()),
+          scale_(sphc::laplacianScale({s.cloud, s.list, s.B}))
+    {
+        for (size_t w = 0; w < bodies_.walls().size(); ++w)
+            turn_[w] = pairFriction::turnOf(bodies_.walls()[w], c);
+    }
+
+    const bodyFinder& bodies() const { return bodies_; }
+
+    void add(label i, List<pairFriction::load>& loads) const
+    {
+        const particleCloud& cloud = state_.cloud;
+        const neighbourList& list = state_.list;
+        for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
+        {
+            const label j = list.index[k], body = bodies_.of(i, j);
+            if (body < 0) continue;
+            const bool rigid = cloud.phase[j] == phaseType::rigid;
+            const scalar both = rigid ? 4 * scale_[i] : scale_[i] + scale_[j];
+            const vector xi = cloud.x[i].xyz(), xj = cloud.x[j].xyz();
+            const vector u = cloud.Up[i].xyz() - cloud.Up[j].xyz() - turn_[body] * (xi - xj);
+            loads[body].add(0.5 * (xi + xj), -case_.mu * cloud.volume() * both * list.F[k] * u);
+        }
+    }
+
+private:
+    const fsiCase& case_;
+    const presentState& state_;
+    bodyFinder bodies_;
+    List<tensor> turn_;
+    List<scalar> scale_;
+};
+
+}  // namespace
+
+pairFriction::pairFriction(const fsiCase& c, const presentState& s)
+{
+    const particleCloud& cloud = s.cloud;
+    const pairSum sum(c, s);
+    constexpr label block = 4096;  // summed in their order: the same with any number of threads
+    List<List<load>> perBlock((cloud.n() + block - 1) / block, List<load>(sum.bodies().n()));
+    parallelFor(
+        label(perBlock.size()),
+        [&](label begin, label end) {
+            for (label b = begin; b < end; ++b)
+                for (label i = std::max(b * block, cloud.nSolid());
+                     i < std::min((b + 1) * block, cloud.n()); ++i)
+                    if (!cloud.beyondOpen(i)) sum.add(i, perBlock[b]);
+        },
+        1);
+    const List<word>& walls = sum.bodies().walls();
+    for (label k = 0; k < sum.bodies().n(); ++k)
+    {
+        const label zone = k - label(walls.size());
+        load& total = zone < 0 ? walls_[walls[k]] : zones_[cloud.zones[zone].name];
+        for (const List<load>& part : perBlock) total.add(part[k]);
+    }
+}
+
+tensor pairFriction::turnOf(const word& wall, const fsiCase& c)
+{
+    const auto velocity = [&](const vector& x) { return c.walls->wallVelocity(wall, x); };
+    tensor W;
+    for (int a = 0; a < 3; ++a) W.col(a) = velocity(vector::Unit(a)) - velocity(vector::Zero());
+    return W;
+}
+
+}  // namespace ispf
