@@ -96,6 +96,7 @@ accepted "for f in $control system/sph* constant/boundary; do { printf '\xef\xbb
 accepted "for f in $control constant/boundary constant/physicalProperties; do printf '%s' \"\$(cat \$f)\" > x; mv x \$f; done" ispfFsiFoam
 accepted "sed -i 's/\$/\r/' system/particleDict constant/boundary" generateParticles
 
+refused "constant/g: it is a named pipe" "rm -f constant/g; mkfifo constant/g" ispfFsiFoam
 refused "constant/g: it is a folder" "rm -f constant/g; mkdir constant/g" ispfFsiFoam
 
 # ---- HDF5 -------------------------------------------------------------------------------------------------------

@@ -82,6 +82,11 @@ cp original other && ispfDictionary other -entry solvers.U.relTol -set 0.2 > log
 printf 'base { a 1; }\ncopy { $base; b 3; }\n' > one; printf 'base { a 2; }\n#include "two"\ncopy { $base; b 3; } // same\n' > other
 [ "$(ispfDictionary one -diff other -disableFunctionEntries | tr -s ' \n' ' ')" = "base { a 1; } " ] || fail "raw -diff: $(ispfDictionary one -diff other -disableFunctionEntries)"
 [ "$(ispfDictionary other -diff one -disableFunctionEntries | tr -s ' \n' ' ')" = '#include "two" base { a 2; } ' ] || fail "raw -diff of an include"
+sed 's/1e-6/0.000001/; s/endTime *\([0-9.]*\)/endTime \1e0/' original > respelt; cmp -s original respelt && fail "nothing is spelt otherwise"
+[ -z "$(ispfDictionary original -diff respelt)$(ispfDictionary original -diff respelt -disableFunctionEntries)" ] || fail "-diff of numbers spelt otherwise: $(ispfDictionary original -diff respelt)"
+printf 'FoamFile { version 2.0; class dictionary; }\na 1;\n' > headed
+[ "$(ispfDictionary headed -entry FoamFile | tr -s ' \n' ' ')" = "FoamFile { version 2.0; class dictionary; } " ] || fail "the header: $(ispfDictionary headed -entry FoamFile 2>&1)"
+[ "$(ispfDictionary headed -entry FoamFile.class -value)" = dictionary ] || fail "of the header: $(ispfDictionary headed -entry FoamFile.class -value 2>&1)"
 [ -z "$(ispfDictionary original -diff original)" ] || fail "-diff of a file and itself"
 # an edit is of its own entry, not of a pattern that matches it, and of all parts of a dictionary
 cat > patterns <<'END'

@@ -19,6 +19,16 @@ T all(scalar v)
     else return v;
 }
 
+bool finite(scalar v)
+{
+    return std::isfinite(v);
+}
+
+bool finite(const vector& v)
+{
+    return v.allFinite();
+}
+
 template <class T>
 class constant : public Function1Of<T>
 {
@@ -41,12 +51,16 @@ public:
         T a;
         scalar n;
     };
-    explicit polynomial(const List<term>& terms) : terms_(terms) {}
+    polynomial(const List<term>& terms, const fileLocation& where) : terms_(terms), where_(where) {}
     T value(scalar t) const override
     {
         T sum = 0 * terms_[0].a;
         for (const term& term : terms_) sum += term.a * std::pow(t, term.n);
-        return sum;
+        if (finite(sum)) return sum;
+        throw fatalError("The polynomial has no value at " + str(t) +
+                             " s: a negative power wants times other than 0, a fractional one "
+                             "times that are not negative.",
+                         where_);
     }
     List<T> parts() const override
     {
@@ -57,6 +71,7 @@ public:
 
 private:
     List<term> terms_;
+    fileLocation where_;
 };
 
 // scale amplitude wave(frequency (t - t0)) + level; a sine, or a square wave that is +1 for the
@@ -182,7 +197,7 @@ std::unique_ptr<Function1Of<T>> powers(const List<token>& tokens, const fileLoca
     in.expect(')', form);
     in.expectEnd();
     if (terms.empty()) throw fatalError("A polynomial wants a term.", where);
-    return std::make_unique<polynomial<T>>(terms);
+    return std::make_unique<polynomial<T>>(terms, where);
 }
 
 // Those that are one word
@@ -243,6 +258,7 @@ std::unique_ptr<Function1Of<T>> Function1Of<T>::New(const word& key, const dicti
     if (type == "constant" || type == "uniform")
         return std::make_unique<constant<T>>(
             valueReader(tokens, key, dict.where(key), wanted).template whole<T>());
+    if (type == "codeStream") dict.get<T>(key, wanted);  // refuses it
     const word v = ofVector ? "(x y z)" : "v";
     dict.fail(key, "'" + key + "' is a function of time: " +
                        (ofVector ? "a vector (x y z)" : "a number") + ", 'constant " + v +

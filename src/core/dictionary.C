@@ -3,6 +3,7 @@
 
 #include "fileNames.H"
 #include <algorithm>
+#include <filesystem>
 
 namespace ispf
 {
@@ -108,7 +109,10 @@ dictionary dictionary::fromFile(const word& path)
 
 dictionary dictionary::fromFileIfPresent(const word& path)
 {
-    if (isFile(path) || isFolder(path)) return fromFile(path);
+    // whatever it is, a link that leads nowhere too: what cannot be read is told
+    std::error_code ignored;
+    if (std::filesystem::exists(std::filesystem::symlink_status(path, ignored)))
+        return fromFile(path);
     dictionary d;
     d.content_->path = path;
     return d;

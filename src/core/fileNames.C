@@ -39,6 +39,11 @@ word caseFolder()
 word readText(const word& path)
 {
     if (isFolder(path)) throw fatalError("Cannot read " + path + ": it is a folder.");
+    // of a shell's own pipes, which are below /dev, the end comes
+    std::error_code ignored;
+    if (fs::is_fifo(path, ignored) && path.rfind("/dev/", 0) != 0)
+        throw fatalError("Cannot read " + path +
+                         ": it is a named pipe, from which an end may never come.");
     errno = 0;
     std::ifstream in(path, std::ios::binary);
     if (!in) throw fatalError("Cannot read " + path + ": " + std::strerror(errno) + ".");

@@ -128,6 +128,10 @@ TEST_CASE("formulas")
     const auto p = made("f polynomial ((2 0) (3 2));");
     CHECK(p->value(2) == relative(14));
     CHECK(made("f { type polynomial; coeffs ((1 1)); }")->value(5) == 5);
+    CHECK(made("f polynomial ((1 -1));")->value(4) == 0.25);
+    CHECK_ERROR(made("f polynomial ((1 -1));")->value(0), "has no value at 0 s", 1);
+    CHECK_ERROR(made("f polynomial ((1 0.5));")->value(-1), "a fractional one", 1);
+    CHECK_ERROR(made("f #codeStream { code #{ #}; };"), "must not run compiled code", 1);
     const auto r = made(
         "f { type scale; scale table ((0 0) (1 1)); value { type sine; frequency 1; "
         "amplitude 2; } }");

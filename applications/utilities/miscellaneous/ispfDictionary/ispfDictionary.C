@@ -53,6 +53,23 @@ word indented(const word& lines)
     return text;
 }
 
+List<word> wordsOf(const List<token>& tokens)
+{
+    List<word> words;
+    for (const token& t : tokens)
+        if (t.kind != token::end) words.push_back(t.text);
+    return words;
+}
+
+// Numbers by their value: 1.0 is 1
+bool alike(const List<word>& a, const List<word>& b)
+{
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const word& v, const word& w) {
+        scalar x = 0, y = 0;
+        return v == w || (readNumber(v, x) && readNumber(w, y) && x == y);
+    });
+}
+
 // What a has otherwise than b
 word differences(const dictionary& a, const dictionary& b)
 {
@@ -66,17 +83,12 @@ word differences(const dictionary& a, const dictionary& b)
             if (inner.empty()) continue;
             text += key + "\n{\n" + indented(inner) + "}\n";
         }
-        else if (a.toString(key) != b.toString(key)) text += a.toString(key);
+        else if (a.isDict(key) || b.isDict(key) ||
+                 !alike(wordsOf(tokenize(a.valueText(key), "")),
+                        wordsOf(tokenize(b.valueText(key), ""))))
+            text += a.toString(key);
     }
     return text;
-}
-
-List<word> wordsOf(const List<token>& tokens)
-{
-    List<word> words;
-    for (const token& t : tokens)
-        if (t.kind != token::end) words.push_back(t.text);
-    return words;
 }
 
 // The same of what stands in the files, macros and directives as they are
@@ -94,7 +106,7 @@ word textDifferences(const dictionaryText& a, const dictionaryText& b, const wor
             const word inner = textDifferences(a, b, name);
             if (!inner.empty()) text += key + "\n{\n" + indented(inner) + "}\n";
         }
-        else if (!b.found(name) || words(a) != words(b)) text += a.entry(name) + "\n";
+        else if (!b.found(name) || !alike(words(a), words(b))) text += a.entry(name) + "\n";
     }
     return text;
 }
@@ -180,6 +192,16 @@ void printExpanded(const argList& args, const word& path)
     const word name = dotted(args.option("entry"));
     word key;
     const dictionary* holder = holderOf(d, name, key);
+    if (!holder && name.rfind("FoamFile.", 0) == 0)
+        holder = holderOf(d.header(), name.substr(name.find('.') + 1), key);
+    if (!holder && name == "FoamFile" && !d.header().keys().empty())
+    {
+        word lines;
+        for (const word& k : d.header().keys()) lines += d.header().toString(k);
+        info() << (args.found("keywords") ? join(d.header().keys(), "\n") + "\n"
+                                          : "FoamFile\n{\n" + indented(lines) + "}\n");
+        return;
+    }
     if (!holder)
         throw fatalError("There is no entry '" + name + "'." + didYouMean(name, d.allKeys()) +
                              "\nPresent: " + join(d.allKeys()),
