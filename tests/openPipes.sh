@@ -67,6 +67,20 @@ boundary="$boundary sx { type symmetryPlane; point (0 0 0); normal (-1 0 0); } s
 echo "rho 1000; mu 0.1;" > constant/physicalProperties
 oscillate "curved" "sqrt(x*x + y*y + z*z) - 24" 0.4 20
 
+# a piston that moves along an open face by five spacings, to and fro: what it has passed is not filled behind it
+rm -rf 0 0.* [1-9]* postProcessing constant/triSurface
+echo "rho 1000; mu 5;" > constant/physicalProperties
+echo "dx 0.01; nDims 2; zones { water { phase fluid; shape box; min (0 0 0); max (0.2 0.2 0); } }" > system/particleDict
+echo "walls { type wall; } top { type open; surface plane; point (0 0.2 0); normal (0 1 0); p 0; }
+    piston { type wall; point (0 0 0); normal (-1 0 0);
+        motion { displacement table ((0 (0 0 0)) (0.2 (0.05 0 0)) (0.4 (0 0 0)) (0.6 (0.05 0 0)) (0.8 (0 0 0))); } }" > constant/boundary
+echo "startTime 0; endTime 0.8; deltaT 2e-3; writeControl timeStep; writeInterval 400;" > system/controlDict
+place; solved
+grep -q halved log && fail "a piston along an open face: steps are halved"
+grep "^particles: " log | awk '{ gsub(",", ""); now = $2; if (NR == 1) first = now }
+    END { printf "    piston along an open face: %d particles, %d at the start, %d put back\n", now, first, $11
+          exit !((now - first)^2 <= 4 && $11 + 0 == 0) }' || fail "a piston along an open face: $(grep '^particles: ' log | tail -n 1)"
+
 # a flow rate into an oblique pipe of 12 dx: Poiseuille's flow, all the way and at once
 rm -rf 0 0.* [1-9]* postProcessing
 echo "dx 1e-3; zones { water { phase fluid; shape cylinder; point1 (0 0 0); point2 (10e-3 0 15e-3); radius 6e-3; } }

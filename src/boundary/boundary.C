@@ -121,6 +121,7 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
     }
     c.putBack(cloud);
     const openFace::movingWalls moving = {
+        c.walls.anyMoves(),
         [&](const vector& x, scalar distance) { return c.walls.movingWithin(x, distance); },
         [&](const vector& x, scalar distance) { return c.walls.movedOver(x, distance); }};
     for (size_t k = 0; k < c.openFaces.size(); ++k)

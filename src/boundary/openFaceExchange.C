@@ -83,16 +83,38 @@ openFace::census openFace::count(const particleCloud& cloud) const
     return c;
 }
 
+// Feet of the part of the strip that moving walls have passed over or stand in: none is missing there
+pointGrid openFace::passedOver(const movingWalls& walls) const
+{
+    List<char> over(samples_.size(), 0);
+    if (walls.any)
+        parallelFor(
+            label(samples_.size()),
+            [&](label begin, label end) {
+                for (label k = begin; k < end; ++k) over[k] = walls.over(samples_[k].x, 0);
+            },
+            256);
+    pointGrid feet(region_);
+    for (size_t k = 0; k < samples_.size(); ++k)
+        if (over[k]) feet.add(samples_[k].foot);
+    return feet;
+}
+
 // Spots whose nearest particle is about a spacing away come first: new particles then close up like
 // a lattice, where the largest holes first would leave gaps too narrow to fill
 List<label> openFace::choose(const census& c, const movingWalls& walls) const
 {
     using candidate = std::tuple<scalar, label, scalar>;  // misfit, spot, its hole at that time
     std::priority_queue<candidate, List<candidate>, std::greater<>> queue;
-    const auto without = [&](const pointGrid& feet, const vector& at, scalar full, scalar radius) {
-        feet.within(at, radius, [&](label, scalar r) { full -= weight(r / radius); });
-        return full;
+    const auto sum = [&](const pointGrid& feet, const vector& at, scalar radius) {
+        scalar weights = 0;
+        feet.within(at, radius, [&](label, scalar r) { weights += weight(r / radius); });
+        return weights;
     };
+    const auto without = [&](const pointGrid& feet, const vector& at, scalar full, scalar radius) {
+        return full - sum(feet, at, radius);
+    };
+    const pointGrid passed = passedOver(walls);
     // what lacks in the layer lacks here in the proportion of the radii: counted within the smaller one it
     // would be mostly chance
     const scalar counted = std::hypot(region_, openLayer::depth * dx_);
@@ -113,10 +135,11 @@ List<label> openFace::choose(const census& c, const movingWalls& walls) const
                     continue;
                 hole[k] = c.particles.nearest(at.x, 1.5 * dx_);
                 const scalar inLayer = before(at.foot);
-                missingNear[k] =
-                    without(c.feet, at.foot, at.fullNear, near_) + hereOfRegion * inLayer;
+                missingNear[k] = without(c.feet, at.foot, at.fullNear, near_) -
+                                 perSample_ * sum(passed, at.foot, near_) + hereOfRegion * inLayer;
                 if (missingNear[k] < missingHere) continue;
-                missingRegion[k] = without(c.feet, at.foot, at.fullRegion, region_) + inLayer;
+                missingRegion[k] = without(c.feet, at.foot, at.fullRegion, region_) -
+                                   perSample_ * sum(passed, at.foot, region_) + inLayer;
             }
         },
         256);

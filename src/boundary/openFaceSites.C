@@ -21,9 +21,9 @@ List<vector> tangents(const vector& n, int nDims)
 
 }  // namespace
 
-// Feet of sample points that fill the strip: what a full strip weighs, however the sites lie in it.
+// Sample points that fill the strip: what a full strip weighs, however the sites lie in it.  Returns their feet.
 // Beside the surface's rim the strip reaches as far as there are sites.
-pointGrid openFace::sampleFeet(const List<vector>& sites, int nDims, const place& allowed) const
+pointGrid openFace::sampleStrip(const List<vector>& sites, int nDims, const place& allowed)
 {
     pointGrid known(dx_), feet(region_);
     for (const vector& x : sites) known.add(x);
@@ -42,8 +42,8 @@ pointGrid openFace::sampleFeet(const List<vector>& sites, int nDims, const place
             }
         },
         256);
-    for (const surfaceFoot& f : found)
-        if (f.found) feet.add(f.foot);
+    for (size_t k = 0; k < points.size(); ++k)
+        if (found[k].found) feet.add(found[k].foot), samples_.push_back({points[k], found[k].foot});
     return feet;
 }
 
@@ -74,7 +74,7 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
                              " in constant/openSites.hdf. Its normals must point out of the fluid",
                          where_);
     checkRim(kept, cloud);
-    const pointGrid full = sampleFeet(kept, cloud.nDims, allowed);
+    const pointGrid full = sampleStrip(kept, cloud.nDims, allowed);
     layer_ = openLayer(*deep_, kept, cloud, allowed);
     deep_.reset();
     perSample_ = 1.0 / samplesPerCell(cloud.nDims);

@@ -248,6 +248,12 @@ bool wallSet::holds(const vector& x) const
     return !slips;
 }
 
+bool wallSet::anyMoves() const
+{
+    return std::any_of(walls_.begin(), walls_.end(),
+                       [](const wall& w) { return w.motion.moves(); });
+}
+
 bool wallSet::movingWithin(const vector& x, scalar distance) const
 {
     for (const body& b : bodies_)
@@ -267,10 +273,17 @@ bool wallSet::movedOver(const vector& x, scalar distance) const
     for (const body& b : bodies_)
     {
         if (!b.carrier(*this).motion.moves() || b.twoSided) continue;
+        // beside a rim it is continued, as wallGuard does for the strip: seen from the wall, x comes from x to y
         const vector y = frame(b).toBody(x);
         if (b.surface->crosses(x, y)) return true;
-        const surfaceFoot f = b.surface->find(y);
-        if (f.found && f.aside == 0 && f.depth > -distance) return true;
+        const label n = label((y - x).norm() / (0.5 * support_));
+        for (label k = 0; k <= n; ++k)
+        {
+            const vector p = y + (x - y) * scalar(k) / scalar(n + 1);
+            if (b.surface->mesh() && b.bounds.distSqr(p) > support_ * support_) continue;
+            const surfaceFoot f = b.surface->find(p);
+            if (f.found && f.depth > (k == 0 ? -distance : 0)) return true;
+        }
     }
     return false;
 }
