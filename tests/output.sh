@@ -105,6 +105,14 @@ echo "functions { e { type energy; } } endTime 0.1;" >> $control
 place; solved
 awk '!/^#/ { if (!n++) { e0 = $2; bad = ($2/0.25 - 1)^2 > 1e-8 || ($5/(16*3.14159265^2*0.01*0.25) - 1)^2 > 1e-4 } last = ($2 + $7)/e0 }
     END { exit bad || n != 51 || (last - 1)^2 > 1e-4 }' postProcessing/e/0/energy.dat || fail "Taylor-Green: $(sed -n '3p;$p' postProcessing/e/0/energy.dat)"
+# a body force that grows, afterwards: that of each time
+rm -rf 0.* postProcessing
+echo "dimensions [0 1 -2 0 0 0 0]; value table ((0 (0 0 0)) (0.1 (0 -1 0)));" > constant/g
+echo "writeControl runTime; writeInterval 0.05;" >> $control
+solved; mv postProcessing written; ispfPostProcess > log 2>&1 || fail "energy: $(tail -n 5 log)"
+potentials() { awk '$1 == 0 || $1 == 0.05 || $1 == 0.1 { print $1, $4 }' $1/e/0/energy.dat; }
+potentials written | awk '{ v[$1] = $2 } END { exit !(v[0] == 0 && v[0.05] > 1e-3 && v[0.1] > 1.9*v[0.05]) }' &&
+    diff <(potentials written) <(potentials postProcessing) || fail "potential energy under a growing body force: $(potentials written)"
 
 # ---- forces: shear between plates, and what a pressure drop pushes through them --------------------------
 for walls in particles mirror; do
