@@ -104,6 +104,7 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
 {
     content& c = *content_;
     cloud.clearGhosts();
+    for (const openFace& face : c.openFaces) face.keepAlongNormals(cloud);
     c.guard.rememberWalls(c.walls);
     const List<scalar> swept = c.walls.moveTo(t1);
     const scalar dt = t1 - c.t0;

@@ -80,6 +80,20 @@ void openFace::setVelocity(particleCloud& cloud) const
     for (const scalar q : givenFlux(cloud)) flux_ -= q;
 }
 
+void openFace::keepAlongNormals(particleCloud& cloud) const
+{
+    if (!inflow_) return;
+    parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
+        for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
+        {
+            const auto& [from, f, u] = known_[i];
+            if (!f.found || f.depth <= 0) continue;
+            const vector moved = cloud.x[i].xyz() - from;
+            cloud.x[i].setXyz(from + moved.dot(f.normal) * f.normal);
+        }
+    });
+}
+
 List<scalar> openFace::givenFlux(const particleCloud& cloud) const
 {
     List<scalar> perZone(cloud.zones.size(), 0);

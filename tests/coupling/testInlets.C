@@ -101,6 +101,24 @@ TEST_CASE("plug flow between slip walls stays plug flow, in a channel at any ang
         }
 }
 
+TEST_CASE("what enters obliquely, towards one wall and off the other, leaves as well")
+{
+    for (const char* coupling : {"projection", "monolithic"})
+    {
+        CAPTURE(coupling);
+        boxCase b = channelWith("type open; velocity (0.02 0.01 0);");
+        b.coupling = coupling, b.velocity = {0.02, 0, 0}, b.mu = 0.1;
+        runningBox r(b);
+        r.run(0.004, 150);
+        scalar flux = 0;
+        for (int k = 0; k < 150; ++k) r.run(0.004, 1), flux += r.c.walls->balance()[1].flux / 150;
+        CHECK(flux == relative(0.02 * b.height(), 0.03));
+        label pushed = 0;
+        for (const patchBalance& p : r.c.walls->balance()) pushed += p.pushed;
+        CHECK(pushed == 0);
+    }
+}
+
 namespace
 {
 
