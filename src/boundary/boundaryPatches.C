@@ -86,10 +86,15 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
             if (face.beyondStrip(x)) return false;
         return group.beyond(x) <= -distance && walls.clear(x, distance);
     };
+    const auto beside = [&](const vector& x, scalar distance) {
+        for (const auto& [point, normal] : group.symmetryPlanes())
+            if ((x - point).dot(normal) > -distance) return true;
+        return !walls.clear(x, distance);
+    };
     for (openFace& face : openFaces)
     {
         const fileLocation where = patches.subDict(face.name()).where("type");
-        face.setSites(sites.positions(face.name(), where), cloud, allowed);
+        face.setSites(sites.positions(face.name(), where), cloud, allowed, beside);
     }
     checkRims(patches, sites, cloud.dx);
 }

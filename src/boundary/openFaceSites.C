@@ -58,7 +58,8 @@ void openFace::addSpot(const vector& x, const surfaceFoot& f, std::uint8_t zone,
     spots_.push_back(s), spotGrid_.add(x);
 }
 
-void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, const place& allowed)
+void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, const place& allowed,
+                        const place& beside)
 {
     List<surfaceFoot> feet;
     List<vector> kept;
@@ -67,6 +68,7 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
         const surfaceFoot f = surface_->find(x);
         if (!f.found || f.depth < 0 || f.depth > depth_) continue;
         feet.push_back(f), kept.push_back(x);
+        betweenWalls_ = betweenWalls_ || beside(f.foot - 0.5 * dx_ * f.normal, 0.75 * dx_);
     }
     if (feet.empty())
         throw fatalError("Open patch " + name_ + " has no site within " + str(depth_ / dx_) +

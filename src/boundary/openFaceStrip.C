@@ -82,7 +82,7 @@ void openFace::setVelocity(particleCloud& cloud) const
 
 void openFace::keepAlongNormals(particleCloud& cloud) const
 {
-    if (!inflow_) return;
+    if (!inflow_ || !betweenWalls_) return;
     parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
         for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
         {
