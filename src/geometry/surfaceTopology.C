@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surfaceTopology.H"
 
+#include "surfaceSearch.H"
 #include "windingNumber.H"
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace ispf
@@ -203,8 +205,7 @@ List<char> closedParts(const List<side>& sides, const List<label>& part, label n
     return closed;
 }
 
-// Components that close only together, along edges where more than two triangles meet, become one part: the
-// same triangles can bound bodies that cross and bodies that touch, so only the sides given tell
+// Components that close only together, along edges where more than two triangles meet, become one part
 label joinOpenComponents(const List<side>& sides, List<label>& part, label n)
 {
     const List<char> closed = closedParts(sides, part, n);
@@ -241,15 +242,98 @@ List<triSurface> separated(const triSurface& s, const List<label>& part, label n
     return parts;
 }
 
+// Is x inside by the number of times that a way out passes the surface?  The majority of three ways: one may
+// meet an edge
+bool insideByCrossings(const surfaceSearch& search, const vector& x, scalar far)
+{
+    label votes = 0;
+    for (const vector& way :
+         {vector(0.536, 0.612, 0.581), vector(-0.713, 0.297, 0.635), vector(0.188, -0.844, 0.502)})
+        votes += search.allHits(x, x + far * way).size() % 2;
+    return votes >= 2;
+}
+
+// The largest facet of each component
+List<label> largestFacets(const triSurface& s, const List<label>& component)
+{
+    List<label> largest;
+    for (label t = 0; t < s.size(); ++t)
+    {
+        if (component[t] >= label(largest.size())) largest.resize(component[t] + 1, -1);
+        label& at = largest[component[t]];
+        if (at < 0 || s.areaVector(t).norm() > s.areaVector(at).norm()) at = t;
+    }
+    return largest;
+}
+
+vector offFacet(const triSurface& s, label t)
+{
+    return 1e-3 * std::sqrt(s.areaVector(t).norm()) * s.normal(t);
+}
+
+// Edges of four triangles that go on straight in pairs: of bodies that cross there, or of a checkerboard
+bool crossesAtEdges(const triSurface& s)
+{
+    constexpr scalar straight = -0.9;
+    const List<side> sides = sortedSides(s);
+    bool found = false;
+    forEdges(sides, [&](size_t i, size_t j) {
+        if (j - i != 4) return;
+        const vector a = s.nodes[sides[i].low], along = (s.nodes[sides[i].high] - a).normalized();
+        vector away[4];
+        for (int k = 0; k < 4; ++k)
+        {
+            const vector d = s.centre(sides[i + k].triangle) - a;
+            away[k] = (d - d.dot(along) * along).normalized();
+        }
+        for (int k = 1; k < 4; ++k)
+            found = found || (away[0].dot(away[k]) < straight &&
+                              away[k == 1 ? 2 : 1].dot(away[k == 3 ? 2 : 3]) < straight);
+    });
+    return found;
+}
+
+// Where the sides given do not tell, each component is turned so that a way out from its inner side passes the
+// surface an odd number of times
+label turnByCrossings(triSurface& s)
+{
+    const List<label> component = connectedComponents(s);
+    const surfaceSearch search(s);
+    const boundBox box = s.bounds();
+    const scalar far = 2 * (box.max - box.min).norm();
+    List<char> wrong;
+    for (const label t : largestFacets(s, component))
+        wrong.push_back(insideByCrossings(search, s.centre(t) + offFacet(s, t), far) &&
+                        !insideByCrossings(search, s.centre(t) - offFacet(s, t), far));
+    label turned = 0;
+    for (label t = 0; t < s.size(); ++t)
+        if (wrong[component[t]]) turn(s, t), ++turned;
+    return turned;
+}
+
 }  // namespace
+
+bool sidesTell(const triSurface& s)
+{
+    const scalar sense = s.volume() < 0 ? -1 : 1;
+    const windingNumber winding(s);
+    for (const label t : largestFacets(s, connectedComponents(s)))
+    {
+        const scalar before = sense * winding.value(s.centre(t) + sense * offFacet(s, t));
+        if (before < -0.5 || std::abs(before - std::round(before)) > 0.2) return false;
+    }
+    return true;
+}
 
 label orientOutward(triSurface& s)
 {
     label turned = makeConsistent(s);
-    const List<side> sides = sortedSides(s);
     List<label> part = connectedComponents(s);
-    const label n = joinOpenComponents(
-        sides, part, s.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()));
+    const label nComponents = s.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
+    const label n = joinOpenComponents(sortedSides(s), part, nComponents);
+    // the same triangles can bound bodies that cross and bodies that touch
+    if (n < nComponents && !sidesTell(s) && !crossesAtEdges(s)) turned += turnByCrossings(s);
+    const List<side> sides = sortedSides(s);
     const List<triSurface> parts = separated(s, part, n);
     const auto within = [](const boundBox& a, const boundBox& b) {
         return b.distSqr(a.min) == 0 && b.distSqr(a.max) == 0;

@@ -20,25 +20,26 @@ triple sorted(triple f)
     return f;
 }
 
-bool turnedAsSorted(const triple& f)
-{
-    return (f[0] < f[1]) + (f[1] < f[2]) + (f[2] < f[0]) == 2;
-}
-
 edge edgeOf(const triple& f, int k)
 {
     return {std::min(f[k], f[(k + 1) % 3]), std::max(f[k], f[(k + 1) % 3])};
 }
 
-// Two facets turned against each other
+bool turnedAsSorted(const triple& f)
+{
+    return (f[0] < f[1]) + (f[1] < f[2]) + (f[2] < f[0]) == 2;
+}
+
+// Facets on one another, whichever way they are turned
 struct facetPair
 {
     label first, second;
     size_t part;  // pairs that hang together: the index of one of them
 };
 
-// Keeps one facet of each sense; those of both senses are pairs
-List<facetPair> findPairs(const triSurface& s, List<char>& keep)
+// Where the sides given tell, facets turned the same way are one, else of more than two on one another two
+// are kept
+List<facetPair> findPairs(const triSurface& s, bool sidesTell, List<char>& keep)
 {
     List<triple> key;
     for (const triple& f : s.triangles) key.push_back(sorted(f));
@@ -48,16 +49,15 @@ List<facetPair> findPairs(const triSurface& s, List<char>& keep)
     List<facetPair> pairs;
     for (size_t i = 0, j; i < order.size(); i = j)
     {
-        label first[2] = {-1, -1};
+        label kept[2] = {-1, -1};
         for (j = i; j < order.size() && key[order[j]] == key[order[i]]; ++j)
         {
-            label& own = first[turnedAsSorted(s.triangles[order[j]])];
+            label& own = kept[sidesTell ? turnedAsSorted(s.triangles[order[j]]) : kept[0] >= 0];
             if (own < 0) own = order[j];
             else keep[order[j]] = 0;
         }
-        if (first[0] >= 0 && first[1] >= 0)
-            pairs.push_back(
-                {std::min(first[0], first[1]), std::max(first[0], first[1]), pairs.size()});
+        if (kept[0] >= 0 && kept[1] >= 0)
+            pairs.push_back({std::min(kept[0], kept[1]), std::max(kept[0], kept[1]), pairs.size()});
     }
     return pairs;
 }
@@ -75,8 +75,10 @@ struct edgeCount
     size_t aPair = 0;
 };
 
-void judge(const triSurface& s, List<facetPair>& pairs, List<char>& keep)
+// Returns one facet of each pair that goes
+List<label> judge(const triSurface& s, List<facetPair>& pairs, List<char>& keep)
 {
+    List<label> gone;
     std::map<edge, edgeCount> edges;
     List<char> isPaired(s.size(), 0);
     for (size_t k = 0; k < pairs.size(); ++k)
@@ -104,21 +106,26 @@ void judge(const triSurface& s, List<facetPair>& pairs, List<char>& keep)
     {
         const size_t part = partOf(pairs, k);
         keep[pairs[k].second] = 0;
-        if (!alone[part] && !needed[part]) keep[pairs[k].first] = 0;
+        if (alone[part] || needed[part]) continue;
+        keep[pairs[k].first] = 0, gone.push_back(pairs[k].first);
     }
+    return gone;
 }
 
 }  // namespace
 
-label dropDuplicates(triSurface& s)
+duplicatesDropped dropDuplicates(triSurface& s, bool sidesTell)
 {
+    duplicatesDropped dropped;
     List<char> keep(s.size(), 1);
-    List<facetPair> pairs = findPairs(s, keep);
-    if (!pairs.empty()) judge(s, pairs, keep);
-    const label before = s.size();
+    List<facetPair> pairs = findPairs(s, sidesTell, keep);
+    for (const label t : pairs.empty() ? List<label>() : judge(s, pairs, keep))
+        dropped.walls.add(s.corner(t, 0), s.corner(t, 1), s.corner(t, 2), 0);
+    dropped.count = s.size();
     if (std::find(keep.begin(), keep.end(), 0) != keep.end())
         s = s.subset([&](label t) { return keep[t] != 0; });
-    return before - s.size();
+    dropped.count -= s.size();
+    return dropped;
 }
 
 }  // namespace ispf

@@ -5,6 +5,7 @@
 #include "duplicateFacets.H"
 #include "seams.H"
 #include "surfaceTopology.H"
+#include "windingNumber.H"
 #include <algorithm>
 #include <numeric>
 
@@ -65,6 +66,30 @@ bool sameSense(const triSurface::triangle& a, const triSurface::triangle& b)
            (a[0] == b[2] && a[1] == b[0] && a[2] == b[1]);
 }
 
+// Returns the facets before they were turned
+List<triSurface::triangle> mend(triSurface& s, bool tells, scalar weld, repairReport& report)
+{
+    const triSurface given = s;
+    const duplicatesDropped dropped = dropDuplicates(s, tells);
+    report.duplicates = dropped.count;
+    report.sewn = sewSeams(s, weld);
+    const List<triSurface::triangle> before = s.triangles;
+    orientOutward(s);
+    if (tells) return before;
+    // without sides that tell, a wall between bodies that touch has them on both its sides; else they may overlap
+    const windingNumber winding(s);
+    const triSurface& walls = dropped.walls;
+    for (label t = 0; t < walls.size(); ++t)
+    {
+        const vector c = walls.centre(t),
+                     step = 1e-3 * std::sqrt(walls.areaVector(t).norm()) * walls.normal(t);
+        if (winding.inside(c - step) && winding.inside(c + step)) continue;
+        s = given;
+        return mend(s, true, weld, report);
+    }
+    return before;
+}
+
 }  // namespace
 
 repairReport repair(triSurface& s, const repairSettings& settings)
@@ -73,10 +98,7 @@ repairReport repair(triSurface& s, const repairSettings& settings)
     report.weld = settings.weld;
     report.joined = joinNear(s, settings.weld);
     report.flat = dropFlat(s);
-    report.duplicates = dropDuplicates(s);
-    report.sewn = sewSeams(s, settings.weld);
-    const List<triSurface::triangle> before = s.triangles;
-    orientOutward(s);
+    const List<triSurface::triangle> before = mend(s, sidesTell(s), settings.weld, report);
     for (const boundaryLoop& loop : boundaryLoops(s))
         if (loop.size <= settings.hole)
         {

@@ -10,6 +10,7 @@
 #include "surfaceTopology.H"
 
 #include <doctest/doctest.h>
+#include <random>
 
 using namespace ispf;
 using namespace ispf::testShapes;
@@ -126,7 +127,6 @@ TEST_CASE(
         CHECK(crossing.volume() == doctest::Approx(16));
         CHECK(facetCrossings(surfaceSearch(crossing), 1e-9, 10).empty());
         CHECK(facetWithin(crossing, 1e-4) >= 0);
-        CHECK(facetWithin(bothCubes({1, 1, 1}, inward, !inward), 1e-4) >= 0);
         for (const vector& shift : {vector(2, 2, 0), vector(2, 1, 2), vector(2, 2, 2)})
             for (const bool other : {false, true})
             {
@@ -135,6 +135,35 @@ TEST_CASE(
                 CHECK(touching.volume() == doctest::Approx(16));
                 CHECK(facetWithin(touching, 1e-4) == -1);
             }
+    }
+    // cubes that touch by whole faces, or parts of them
+    for (const unsigned seed : {0u, 1u, 2u})
+        for (const vector& next : {vector(2, 0, 0), vector(2, 1, 0)})
+        {
+            triSurface s = latticeCube({0, 0, 0}, true);
+            s.append(latticeCube(next)), s.append(latticeCube(2 * next, seed == 2));
+            std::mt19937 random(seed);
+            for (auto& f : s.triangles)
+                if (seed > 0 && random() % 2) std::swap(f[0], f[1]);
+            repairSettings settings;
+            settings.weld = 1e-9;
+            repair(s, settings);
+            CHECK(checkClosed(s).closed());
+            CHECK(s.volume() == doctest::Approx(24));
+            CHECK(facetWithin(s, 1e-4) == -1);
+        }
+    // that overlap, turned at random: what lies in both could not be told
+    for (const vector& shift : {vector(1, 1, 1), vector(1, 0, 0), vector(1, 1, 0)})
+    {
+        triSurface s = latticeCube({0, 0, 0});
+        s.append(latticeCube(shift));
+        std::mt19937 random(1);
+        for (auto& f : s.triangles)
+            if (random() % 2) std::swap(f[0], f[1]);
+        repairSettings settings;
+        settings.weld = 1e-9;
+        repair(s, settings);
+        CHECK((!checkClosed(s).closed() || facetWithin(s, 1e-4) >= 0));
     }
 }
 
