@@ -112,34 +112,37 @@ public:
         if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);  // byte order mark
         std::istringstream in(text);
         word line;
-        for (label left = nHeader_; std::getline(in, line);)
+        while (std::getline(in, line))
         {
-            ++line_;
-            if (trimmed(line).empty() || trimmed(line)[0] == '#') continue;
-            if (left-- > 0) readHeader(line);
-            else
-            {
-                List<size_t> columns;
-                for (const word& name : names)
-                    columns.push_back(
-                        column(columns.empty() ? "refColumn" : "componentColumns", name));
-                const List<word> cells = split(line);
-                List<scalar> v;
-                for (const size_t c : columns) v.push_back(cell(cells, c));
-                for (size_t k = 0; k <= n && rows.empty(); ++k)
-                    units[k] =
-                        factor(columns[k], k == 0 ? dims::time : wanted_) * (k == 0 ? 1 : scale);
-                for (size_t k = 0; k <= n; ++k) v[k] *= units[k];
-                Function1Row<T>& r = rows.emplace_back();
-                r.t = v[0], r.where = here();
-                if constexpr (n == 3) r.value = {v[1], v[2], v[3]};
-                else r.value = v[1];
-            }
+            const word content = trimmed(line);
+            if (++line_ <= nHeader_) readHeader(line);
+            if (line_ <= nHeader_ || content.empty() || content[0] == '#') continue;
+            if (rows.empty()) chooseHeader(names);
+            List<size_t> columns;
+            for (const word& name : names)
+                columns.push_back(column(columns.empty() ? "refColumn" : "componentColumns", name));
+            const List<word> cells = split(line);
+            List<scalar> v;
+            for (const size_t c : columns) v.push_back(cell(cells, c));
+            for (size_t k = 0; k <= n && rows.empty(); ++k)
+                units[k] = factor(columns[k], k == 0 ? dims::time : wanted_) * (k == 0 ? 1 : scale);
+            for (size_t k = 0; k <= n; ++k) v[k] *= units[k];
+            Function1Row<T>& r = rows.emplace_back();
+            r.t = v[0], r.where = here();
+            if constexpr (n == 3) r.value = {v[1], v[2], v[3]};
+            else r.value = v[1];
         }
         return rows;
     }
 
 private:
+    struct headerLine
+    {
+        List<word> names, units;
+        bool remark = false;  // begins with #
+        fileLocation where;
+    };
+
     // Of the time and of n components
     List<word> columnNames(size_t n) const
     {
@@ -174,30 +177,54 @@ private:
         return cells;
     }
 
-    // Names, each with its unit or without: time [s]
+    // Names, each with its unit or without: time [s].  They may stand behind a #
     void readHeader(const word& line)
     {
-        header_.clear(), units_.clear();
-        for (const word& cell : split(line))
+        headerLine h;
+        h.where = here();
+        h.remark = trimmed(line)[0] == '#';
+        const size_t first = h.remark ? line.find('#') : 0;
+        const size_t begin = h.remark ? line.find_first_not_of("# \t\r", first) : 0;
+        if (trimmed(line).empty() || begin == word::npos) return;
+        for (const word& cell : split(line.substr(begin)))
         {
             const size_t open = cell.find('['), close = cell.rfind(']');
             const bool hasUnit = open != word::npos && close != word::npos && close > open;
-            header_.push_back(trimmed(hasUnit ? cell.substr(0, open) : cell));
-            units_.push_back(hasUnit ? cell.substr(open + 1, close - open - 1) : "");
+            h.names.push_back(trimmed(hasUnit ? cell.substr(0, open) : cell));
+            h.units.push_back(hasUnit ? cell.substr(open + 1, close - open - 1) : "");
         }
-        headerLine_ = here();
+        headers_.push_back(h);
+    }
+
+    // The last line of the header that has the columns wanted; one behind a # only where no other has them
+    void chooseHeader(const List<word>& columns)
+    {
+        const auto has = [](const headerLine& h, const word& column) {
+            scalar number;
+            return readNumber(column, number)
+                       ? number < scalar(h.names.size())
+                       : std::find(h.names.begin(), h.names.end(), column) != h.names.end();
+        };
+        int best = 0;
+        for (const headerLine& h : headers_)
+        {
+            const bool all = std::all_of(columns.begin(), columns.end(),
+                                         [&](const word& column) { return has(h, column); });
+            const int rank = 2 * all + !h.remark;
+            if (rank > 0 && rank >= best) best = rank, header_ = h;
+        }
     }
 
     // To SI
     scalar factor(size_t column, const dimensionSet& wanted) const
     {
-        if (column >= units_.size() || units_[column].empty()) return 1;
-        const unit u = parsedUnit(units_[column], headerLine_);
+        if (column >= header_.units.size() || header_.units[column].empty()) return 1;
+        const unit u = parsedUnit(header_.units[column], header_.where);
         if (wanted.known && !(u.dimensions == wanted))
-            throw fatalError("Column '" + header_[column] + "' is in [" + units_[column] +
-                                 "], of the dimensions " + u.dimensions.text() +
-                                 ",\nbut it must have " + wanted.text() + ".",
-                             headerLine_);
+            throw fatalError("Column '" + header_.names[column] + "' is in [" +
+                                 header_.units[column] + "], of the dimensions " +
+                                 u.dimensions.text() + ",\nbut it must have " + wanted.text() + ".",
+                             header_.where);
         return u.factor;
     }
 
@@ -206,11 +233,13 @@ private:
         scalar number;
         if (readNumber(name, number) && number >= 0 && number == size_t(number))
             return size_t(number);
-        const auto found = std::find(header_.begin(), header_.end(), name);
-        if (found != header_.end()) return size_t(found - header_.begin());
+        const auto found = std::find(header_.names.begin(), header_.names.end(), name);
+        if (found != header_.names.end()) return size_t(found - header_.names.begin());
+        const List<word>& known =
+            header_.names.empty() && !headers_.empty() ? headers_.back().names : header_.names;
         dict_.fail(key, "No column '" + name + "' in " + path_ + ". " +
-                            (header_.empty() ? "nHeaderLine 1 tells that its first line has names."
-                                             : validWords("column", header_)));
+                            (known.empty() ? "nHeaderLine 1 tells that its first line has names."
+                                           : validWords("column", known)));
     }
 
     scalar cell(const List<word>& cells, size_t k) const
@@ -222,10 +251,11 @@ private:
                              here());
         scalar v;
         if (!readNumber(cells[k], v))
-            throw fatalError(
-                "A finite number is wanted, found '" + cells[k] +
-                    "'.\nnHeaderLine skips lines at the top; lines with # are skipped anyhow.",
-                here());
+            throw fatalError("A finite number is wanted, found '" + cells[k] +
+                                 "'.\nnHeaderLine tells how many lines at the top to skip: blank "
+                                 "ones and those with # "
+                                 "count.",
+                             here());
         return v;
     }
 
@@ -235,8 +265,8 @@ private:
     word separator_;
     bool merge_;
     label nHeader_;
-    List<word> header_, units_;
-    fileLocation headerLine_;
+    List<headerLine> headers_;
+    headerLine header_;  // the one in use
     int line_ = 0;
 };
 

@@ -89,21 +89,44 @@ TEST_CASE("csvFile: columns by number and by name, scale, comments, separators")
     const auto f = [&](const word& rest) {
         return made("f { type csvFile; file \"a.csv\"; " + rest + " }", c.path);
     };
-    CHECK(f("nHeaderLine 1;")->value(1) == relative(2));
-    CHECK(f("nHeaderLine 1; componentColumns (2); scale 1e-3;")->value(1) == relative(2e-3));
-    CHECK(f("nHeaderLine 1; refColumn time; componentColumns (right);")->value(2) == relative(3));
-    CHECK(f("nHeaderLine 1; componentColumns (left);")->value(2) == relative(4));
-    CHECK_ERROR(f("nHeaderLine 1; componentColumns (lft);"), "Valid columns are: left right time",
+    CHECK(f("nHeaderLine 2;")->value(1) == relative(2));
+    CHECK(f("nHeaderLine 2; componentColumns (2); scale 1e-3;")->value(1) == relative(2e-3));
+    CHECK(f("nHeaderLine 2; refColumn time; componentColumns (right);")->value(2) == relative(3));
+    CHECK(f("nHeaderLine 2; componentColumns (left);")->value(2) == relative(4));
+    CHECK_ERROR(f("nHeaderLine 2; componentColumns (lft);"), "Valid columns are: left right time",
                 1);
     CHECK_ERROR(f("componentColumns (left);"), "nHeaderLine 1 tells", 1);
-    CHECK_ERROR(f("nHeaderLine 1; componentColumns (3);"), "has 3 columns", 3);
+    CHECK_ERROR(f("nHeaderLine 2; componentColumns (3);"), "has 3 columns", 3);
     CHECK_ERROR(f(""), "found 'time'", 2);
+    CHECK_ERROR(f("nHeaderLine 1;"), "found 'time'.\nnHeaderLine tells how many", 2);
     c.write("a.csv", "0  1\n1   3\n2 nan\n");
     CHECK_ERROR(f("separator \" \"; mergeSeparators on;"), "finite number", 3);
     c.write("a.csv", "0  1\n1   3\n");
     CHECK(f("separator \" \"; mergeSeparators on;")->value(0.5) == relative(2));
     c.write("a.csv", "0\t1\n0\t3\n");
     CHECK_ERROR(f("separator \"\\t\";"), "must increase", 2);
+}
+
+TEST_CASE("csvFile: the header is so many lines, and names may stand behind a #")
+{
+    const temporaryFolder c;
+    const auto at = [&](scalar t, const word& rest) {
+        return made("f { type csvFile; file \"a.csv\"; nHeaderLine " + rest + " }", c.path)
+            ->value(t);
+    };
+    c.write("a.csv", "# t,v\n0,0.1\n0.01,0.3\n");
+    CHECK(at(0, "1;") == 0.1);
+    CHECK(at(0, "0;") == 0.1);  // a # is skipped anyhow
+    CHECK(at(0.01, "1; columns (t v);") == 0.3);
+    CHECK_ERROR(at(0, "1; columns (t w);"), "Valid columns are: t v", 1);
+    c.write("a.csv", "\n# t  v\n\n# measured\n0  5\n#\n\n10  7\n");
+    CHECK(at(10, "4; separator \" \"; mergeSeparators yes;") == 7);
+    c.write("a.csv", "\r\n# t [ms], v [cm]\r\n# measured\r\n0,5\r\n10,7\r\n");
+    CHECK(at(0.01, "3; columns (t v);") == relative(0.07));
+    CHECK(at(0.01, "3;") == relative(0.07));
+    c.write("a.csv", "# of [3], Fig. 1\nt,v\n# s,m\n0,5\n1,7\n");
+    CHECK(at(1, "3;") == 7);
+    CHECK(at(1, "3; columns (t v);") == 7);
 }
 
 TEST_CASE("csvFile: a byte order mark is no part of the first name")
