@@ -3,6 +3,7 @@
 #include "fileNames.H"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
 #include <cstring>
@@ -26,14 +27,17 @@ namespace
                            : "Check that the folder exists and that you may write there."));
 }
 
-// The file under its temporary name; removed again unless it was moved into place
+// The file under its temporary name; removed again unless it was moved into place.  It gets mode and owner of the
+// one that it replaces, and until it is whole nobody else may read it
 class temporaryFile
 {
 public:
     explicit temporaryFile(const word& path)
         : path_(path),
           temporary_(path + ".tmp"),
-          descriptor_(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+          replaces_(::stat(path.c_str(), &earlier_) == 0),
+          descriptor_(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC,
+                             replaces_ ? 0600 : 0666))
     {
         if (descriptor_ < 0) fail(path_, "opening '" + temporary_ + "'", errno);
     }
@@ -59,6 +63,7 @@ public:
     // To disk, under the temporary name still
     void finish()
     {
+        if (replaces_) takeOver();
         if (::fsync(descriptor_) != 0) fail(path_, "flushing to disk", errno);
         const int closed = ::close(descriptor_);
         descriptor_ = -1;
@@ -72,7 +77,18 @@ public:
     const word& path() const { return path_; }
 
 private:
+    // To give a file away is for its system's administrator, and some file systems know no modes
+    void takeOver() const
+    {
+        [[maybe_unused]] const bool owned =
+            ::fchown(descriptor_, earlier_.st_uid, earlier_.st_gid) == 0 ||
+            ::fchown(descriptor_, uid_t(-1), earlier_.st_gid) == 0;
+        ::fchmod(descriptor_, earlier_.st_mode & 07777);
+    }
+
     word path_, temporary_;
+    struct stat earlier_ = {};
+    bool replaces_;
     int descriptor_;
     bool moved_ = false;
 };
