@@ -119,5 +119,20 @@ full="trap '' XFSZ; ulimit -f 40; exec"
 refused "Cannot write.*0.03/particles.hdf" "true" bash -c "$full ispfFsiFoam"
 refused "Cannot write.*particles.hdf" "rm -r 0 0.* constant/*.hdf *.series" bash -c "$full generateParticles"
 refused "0.03" "touch 0.03" ispfFsiFoam
+# a log that cannot be written stops no run, but it is told at the end
+logless() { # how the log is lost, what is said of it
+    rm -rf "$scratch/broken"; cp -r "$scratch/sound" "$scratch/broken"; cd "$scratch/broken" || exit 1
+    bash -c "$1" 2> "$scratch/log" && fail "$1: the log is lost without a word"
+    grep -q "could not be written to stdout: $2" "$scratch/log" || fail "$1: $(cat "$scratch/log")"
+    [ -f 0.04/particles.hdf ] || fail "$1: stopped half way: $(ls)"
+}
+logless "ispfFsiFoam > /dev/full" "No space left on device"
+logless "set -o pipefail; ispfFsiFoam | true" "Broken pipe"
+logless "ispfFsiFoam >&-" "Bad file descriptor"
+for program in checkParticles "ispfPostProcess -func map" generateParticles "calibrateSprings -help"; do
+    # shellcheck disable=SC2086
+    $program > /dev/full 2> "$scratch/log" && fail "$program: its output is lost without a word"
+    grep -q "could not be written to stdout: No space" "$scratch/log" || fail "$program > /dev/full: $(cat "$scratch/log")"
+done
 refused "postProcessing" "touch postProcessing_; rm -rf postProcessing; mv postProcessing_ postProcessing" ispfPostProcess -func map
 [ $failures = 0 ]

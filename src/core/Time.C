@@ -198,6 +198,8 @@ void Time::stopOnSignals()
     action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
     ::sigaction(SIGTERM, &action, nullptr);
     ::sigaction(SIGINT, &action, nullptr);
+    // a log that nobody reads any more, or a file that may not grow, is an error of writing
+    for (const int s : {SIGPIPE, SIGXFSZ}) std::signal(s, SIG_IGN);
 }
 
 scalar Time::elapsedCpuTime() const

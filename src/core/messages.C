@@ -1,19 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "messages.H"
 
+#include <fcntl.h>
 #include <unistd.h>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <map>
 #include <mutex>
 #include <new>
+#include <utility>
 
 namespace ispf
 {
 
 namespace
 {
+
+int outputError = 0;  // errno of the first write to stdout that failed
+
+// A log that cannot be written stops no run: runMain tells at its end
+void note(bool written)
+{
+    if (!written && outputError == 0) outputError = errno != 0 ? errno : EIO;
+}
 
 // Hands characters to stdout and flushes at each end of line
 class lineFlushingBuffer : public std::streambuf
@@ -22,17 +34,21 @@ protected:
     int_type overflow(int_type c) override
     {
         if (c == traits_type::eof()) return c;
-        std::fputc(c, stdout);
-        if (c == '\n') std::fflush(stdout);
+        note(std::fputc(c, stdout) != EOF);
+        if (c == '\n') sync();
         return c;
     }
     std::streamsize xsputn(const char* s, std::streamsize n) override
     {
-        std::fwrite(s, 1, size_t(n), stdout);
-        if (std::find(s, s + n, '\n') != s + n) std::fflush(stdout);
+        note(std::fwrite(s, 1, size_t(n), stdout) == size_t(n));
+        if (std::find(s, s + n, '\n') != s + n) sync();
         return n;
     }
-    int sync() override { return std::fflush(stdout); }
+    int sync() override
+    {
+        note(std::fflush(stdout) == 0);
+        return 0;
+    }
 };
 
 int editDistance(const word& a, const word& b)
@@ -66,7 +82,7 @@ word placeText(const fileLocation& w)
 void complain(const word& text)
 {
     if (::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO)) std::fputs(text.c_str(), stdout);
-    std::fflush(stdout);
+    note(std::fflush(stdout) == 0);
     std::fputs(text.c_str(), stderr);
     std::fflush(stderr);
 }
@@ -75,6 +91,42 @@ int report(const word& text)
 {
     complain(text);
     return 1;
+}
+
+// What a program opens must not take the place of a stream that it was started without
+void occupyStandardStreams()
+{
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(stream, F_GETFD) < 0)
+            ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+int statusOf(const std::function<int()>& body)
+{
+    try
+    {
+        return body();
+    }
+    catch (const fatalError& e)
+    {
+        return report(formatted(e));
+    }
+    catch (const std::bad_alloc&)
+    {
+        return report(formatted(fatalError("Out of memory. Use fewer particles or more memory.")));
+    }
+    catch (const std::exception& e)
+    {
+        return report(formatted(fatalError(e.what())));
+    }
+    catch (const std::string& e)  // gmsh throws plain strings
+    {
+        return report(formatted(fatalError(e)));
+    }
+    catch (...)
+    {
+        return report(formatted(fatalError("An exception of unknown type ended the program.")));
+    }
 }
 
 }  // namespace
@@ -127,30 +179,15 @@ void warning(const word& text, int most)
 
 int runMain(const std::function<int()>& body)
 {
-    try
-    {
-        return body();
-    }
-    catch (const fatalError& e)
-    {
-        return report(formatted(e));
-    }
-    catch (const std::bad_alloc&)
-    {
-        return report(formatted(fatalError("Out of memory. Use fewer particles or more memory.")));
-    }
-    catch (const std::exception& e)
-    {
-        return report(formatted(fatalError(e.what())));
-    }
-    catch (const std::string& e)  // gmsh throws plain strings
-    {
-        return report(formatted(fatalError(e)));
-    }
-    catch (...)
-    {
-        return report(formatted(fatalError("An exception of unknown type ended the program.")));
-    }
+    occupyStandardStreams();
+    const int status = statusOf(body);
+    note(std::fflush(stdout) == 0);
+    if (outputError == 0) return status;
+    const word reason = std::strerror(std::exchange(outputError, 0));
+    report(formatted(fatalError("The output could not be written to stdout: " + reason +
+                                ".\nA part of it is lost. Files of their own that the program "
+                                "wrote are whole.")));
+    return status != 0 ? status : 1;
 }
 
 word str(double value, int digits)

@@ -50,10 +50,10 @@ bool isUnresolved(const fsiCase& c)
 
 int run(const argList& args)
 {
+    Time::stopOnSignals();
     args.printHeader();
     info() << "Create time\n\n";
     Time time(args.caseFolder());
-    Time::stopOnSignals();
     fsiCase c(time);
     const auto coupling = couplingScheme::New(c);
     volumeLedger ledger(c);
