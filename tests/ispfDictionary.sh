@@ -108,6 +108,19 @@ pattern 'solvers { "(U|p)" { tol 1; } p { $U; rel 2; } } ".*" { type none; } wal
 pattern 'solvers { "(U|p)" { tol 1; } p { $U; rel 2; } } ".*" { type none; } walls {x 1;}' -entry walls -set '{x 1;}'
 cp patterns edited; ispfDictionary edited -entry walls.velocity -remove > log 2>&1 && fail "removed what is not there"
 cmp -s patterns edited || fail "removed what a pattern matches: $(cat edited)"
+# what an included file holds is set beside a pattern that matches it
+echo 'solvers { p { tol 1; } }' > incf
+through() {
+    printf '#include "incf"\n"s.*" { any 1; }\n' > edited
+    ispfDictionary edited "${@:2}" > log 2>&1 || fail "$*: $(cat log)"
+    [ "$(tr -s ' \n' ' ' < edited)" = "#include \"incf\" \"s.*\" { any 1; } $1 " ] || fail "$*: $(cat edited)"
+}
+through 'solvers { p { tol 7; } }' -entry solvers.p.tol -set 7
+[ "$(ispfDictionary edited -entry solvers.p.tol -value)" = 7 ] || fail "set beside a pattern: $(ispfDictionary edited -expand)"
+through 'solvers { p {tol 7;} }' -entry solvers.p -set '{tol 7;}'
+through 'solvers { U { tol 7; } }' -entry solvers.U.tol -add 7
+gone() { ispfDictionary edited "$@" > log 2>&1 && fail "$*, which no program finds: $(cat log)"; }
+gone -entry solvers.any; gone -entry solvers.V.any  # an exact key hides the pattern
 # parts of dictionaries and files of other kinds, as foamDictionary reads them
 cat > boundary <<'END'
 FoamFile { version 2.0; format ascii; class polyBoundaryMesh; object boundary; }
@@ -140,4 +153,21 @@ ispfDictionary part -expand > log 2>&1 && fail "#includeFunc of nothing"
 grep -q "no file system/wacht" log || fail "#includeFunc of nothing: $(cat log)"
 ln -s original link && ispfDictionary link -entry endTime -set 3 > log
 [ -L link ] && grep -q "endTime   3;" original || fail "an edit through a link"
+# the mode of a file stays
+echo 'endTime   1;' > modes
+for mode in 600 640 444 755; do
+    chmod $mode modes
+    ispfDictionary modes -entry endTime -set $mode > log || fail "mode $mode: $(cat log)"
+    [ "$(stat -c %a modes)" = $mode ] && grep -q "endTime   $mode;" modes || fail "mode $mode has become $(stat -c %a modes)"
+done
+(umask 027 && ispfDictionary modes -entry endTime -set 1 > log && [ "$(stat -c %a modes)" = 755 ]) || fail "mode under umask 027: $(stat -c %a modes)"
+# what cannot be written is an error of its own, and stops nothing
+for options in "original" "original -expand" "original -entry endTime" "original -keywords" "-help" "modes -entry endTime -set 9"; do
+    # shellcheck disable=SC2086
+    ispfDictionary $options > /dev/full 2> log && fail "$options: lost without a word"
+    grep -q "could not be written to stdout: No space left on device" log || fail "$options: $(cat log)"
+    # shellcheck disable=SC2086
+    ispfDictionary $options >&- 2> log && fail "$options: lost without a word on a closed stdout"
+done
+grep -q "endTime   9;" modes || fail "an edit is left undone for what it says: $(grep endTime modes)"
 [ $failures = 0 ]

@@ -279,19 +279,18 @@ void dictionaryText::replace(size_t first, size_t last, const word& by)
     }
 }
 
-// The innermost dictionary of `name` that is there; `rest` of the name is not
-const dictionaryText::item& dictionaryText::parentOf(const word& name, word& rest) const
+// The dictionaries of `name` that are there, from the innermost outwards, each with what of the name comes in it
+List<std::pair<const dictionaryText::item*, word>> dictionaryText::parentsOf(const word& name) const
 {
+    List<std::pair<const item*, word>> parents;
     for (size_t dot = name.rfind('.'); dot != word::npos && dot > 0; dot = name.rfind('.', dot - 1))
     {
         const List<const item*> all = own(name.substr(0, dot));
         const item* e = all.empty() ? find(name.substr(0, dot)) : all.back();
-        if (!e || !e->isDict) continue;
-        rest = name.substr(dot + 1);
-        return *e;
+        if (e && e->isDict) parents.emplace_back(e, name.substr(dot + 1));
     }
-    rest = name;
-    return top_;
+    parents.emplace_back(&top_, name);
+    return parents;
 }
 
 namespace
@@ -310,13 +309,13 @@ word statement(const word& key, const word& value, const word& margin)
 
 }  // namespace
 
-void dictionaryText::set(const word& name, const word& value, bool append)
+void dictionaryText::set(const word& name, const word& value)
 {
     const bool toDict = !value.empty() && value[0] == '{';
     // A dictionary in several parts is replaced as a whole
-    while (!append && toDict && own(name).size() > 1) erase(*own(name).front());
+    while (toDict && own(name).size() > 1) erase(*own(name).front());
     const List<const item*> all = own(name);
-    const item* e = append || all.empty() ? nullptr : all.back();
+    const item* e = all.empty() ? nullptr : all.back();
     if (e && !e->isDict && !toDict)
     {
         const bool empty = e->valueFirst == e->valueLast;
@@ -328,17 +327,29 @@ void dictionaryText::set(const word& name, const word& value, bool append)
             text_.substr(e->first, text_.find_first_of(" \t\r\n{;", e->first) - e->first);
         return replace(e->first, e->last, key + " " + value + (toDict ? "" : ";"));
     }
-    word rest;
-    const item& parent = parentOf(name, rest);
+    const auto [parent, key] = parentsOf(name).front();
+    insert(*parent, key, value, false);
+}
+
+bool dictionaryText::append(const word& name, const word& value, int outwards)
+{
+    const auto parents = parentsOf(name);
+    if (outwards >= int(parents.size())) return false;
+    insert(*parents[outwards].first, parents[outwards].second, value, true);
+    return true;
+}
+
+void dictionaryText::insert(const item& parent, const word& key, const word& value, bool atEnd)
+{
     const bool top = &parent == &top_;
     size_t at = parent.items.empty() ? parent.valueFirst : parent.items.back().last;
-    if (top && append) at = text_.find_last_not_of(" \t\r\n") + 1;
+    if (top && atEnd) at = text_.find_last_not_of(" \t\r\n") + 1;
     // Behind a comment that ends the line, but not beyond the closing brace
     const size_t lineEnd = std::min(text_.find('\n', at), text_.size());
     const size_t next = std::min(text_.find_first_not_of(" \t\r", at), text_.size());
     if (next >= lineEnd || text_.compare(next, 2, "//") == 0) at = lineEnd;
     const word margin(4 * parent.depth, ' ');
-    word addition = "\n" + statement(rest, value, margin);
+    word addition = "\n" + statement(key, value, margin);
     addition.pop_back();
     // A brace in the same line comes into a line of its own
     const bool closes = !top && at < parent.valueLast && lineEnd > parent.valueLast;

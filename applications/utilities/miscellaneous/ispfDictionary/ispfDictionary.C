@@ -30,15 +30,20 @@ word dotted(word name)
 const dictionary* holderOf(const dictionary& d, const word& name, word& key)
 {
     const List<word> exact = d.keys();
-    if (std::find(exact.begin(), exact.end(), name) != exact.end()) return key = name, &d;
+    const auto isExact = [&](const word& k) {
+        return std::find(exact.begin(), exact.end(), k) != exact.end();
+    };
+    if (isExact(name)) return key = name, &d;
+    bool entered = false;
     for (size_t dot = name.find('.'); dot != word::npos; dot = name.find('.', dot + 1))
     {
         const word first = name.substr(0, dot);
-        if (!d.isDict(first)) continue;
+        if (!d.isDict(first) || (entered && !isExact(first))) continue;
+        entered = true;
         if (const dictionary* found = holderOf(d.subDict(first), name.substr(dot + 1), key))
             return found;
     }
-    if (d.found(name)) return key = name, &d;
+    if (!entered && d.found(name)) return key = name, &d;
     return nullptr;
 }
 
@@ -128,10 +133,16 @@ word differences(const argList& args, const word& path, const word& other)
 // Does the file, read as programs do, hold the value? A macro, a file or a condition may stand in between.
 bool holds(const dictionaryText& text, const word& path, const word& name, const word& value)
 {
-    if (value.find_first_of("$#{") != word::npos) return true;
+    const bool toDict = !value.empty() && value[0] == '{';
+    if (value.find_first_of(toDict ? "$#" : "$#{") != word::npos) return true;
     const dictionary d = dictionary::fromPart(text.text(), path);
     word key;
     const dictionary* holder = holderOf(d, name, key);
+    if (toDict)  // what an included file brings may be merged into it
+        return holder && holder->isDict(key) &&
+               differences(dictionary::fromPart("a " + value, path).subDict("a"),
+                           holder->subDict(key))
+                   .empty();
     return holder && !holder->isDict(key) &&
            wordsOf(holder->tokenList(key)) == wordsOf(tokenize(value, path));
 }
@@ -169,12 +180,15 @@ void edit(const argList& args, dictionaryText& text, const word& path)
                 {path, name, 0, 0});
         const dictionaryText before = text;
         text.set(name, value);
-        if (!holds(text, path, name, value)) text = before, text.set(name, value, true);
-        if (!holds(text, path, name, value))
-            throw fatalError("'" + name +
-                                 "' cannot be set: something else in the file decides its "
-                                 "value.",
-                             {path, name, 0, 0});
+        for (int outwards = 0; !holds(text, path, name, value); ++outwards)
+        {
+            text = before;
+            if (!text.append(name, value, outwards))
+                throw fatalError("'" + name +
+                                     "' cannot be set: something else in the file decides its "
+                                     "value.",
+                                 {path, name, 0, 0});
+        }
         info() << "New entry " << text.entry(name) << "\n";
     }
     writeText(std::filesystem::canonical(path).string(), text.text());
