@@ -102,7 +102,7 @@ void Time::rereadIfModified()
     }
     catch (const fatalError& e)  // an editor may have saved half a thought
     {
-        warning("The changed controlDict is not used:" + formatted(e));
+        warning("The changed controlDict is not used:\n" + formatted(e));
     }
 }
 

@@ -87,9 +87,11 @@ void complain(const word& text)
     std::fflush(stderr);
 }
 
-int report(const word& text)
+int report(const fatalError& error)
 {
-    complain(text);
+    complain(
+        (error.hasLocation() ? "\n--> FOAM FATAL IO ERROR: \n" : "\n--> FOAM FATAL ERROR: \n") +
+        formatted(error) + "\n\nFOAM exiting\n\n");
     return 1;
 }
 
@@ -109,23 +111,23 @@ int statusOf(const std::function<int()>& body)
     }
     catch (const fatalError& e)
     {
-        return report(formatted(e));
+        return report(e);
     }
     catch (const std::bad_alloc&)
     {
-        return report(formatted(fatalError("Out of memory. Use fewer particles or more memory.")));
+        return report(fatalError("Out of memory. Use fewer particles or more memory."));
     }
     catch (const std::exception& e)
     {
-        return report(formatted(fatalError(e.what())));
+        return report(fatalError(e.what()));
     }
     catch (const std::string& e)  // gmsh throws plain strings
     {
-        return report(formatted(fatalError(e)));
+        return report(fatalError(e));
     }
     catch (...)
     {
-        return report(formatted(fatalError("An exception of unknown type ended the program.")));
+        return report(fatalError("An exception of unknown type ended the program."));
     }
 }
 
@@ -133,11 +135,7 @@ int statusOf(const std::function<int()>& body)
 
 word formatted(const fatalError& error)
 {
-    word text =
-        error.hasLocation() ? "\n--> FOAM FATAL IO ERROR: \n" : "\n--> FOAM FATAL ERROR: \n";
-    text += error.what();
-    if (error.hasLocation()) text += "\n\n" + placeText(error.location());
-    return text + "\n\nFOAM exiting\n\n";
+    return error.what() + (error.hasLocation() ? "\n\n" + placeText(error.location()) : "");
 }
 
 word validWords(const word& what, List<word> words)
@@ -184,9 +182,9 @@ int runMain(const std::function<int()>& body)
     note(std::fflush(stdout) == 0);
     if (outputError == 0) return status;
     const word reason = std::strerror(std::exchange(outputError, 0));
-    report(formatted(fatalError("The output could not be written to stdout: " + reason +
-                                ".\nA part of it is lost. Files of their own that the program "
-                                "wrote are whole.")));
+    report(fatalError("The output could not be written to stdout: " + reason +
+                      ".\nA part of it is lost. Files of their own that the program "
+                      "wrote are whole."));
     return status != 0 ? status : 1;
 }
 

@@ -110,7 +110,7 @@ void functionObjectList::renew()
     }
     catch (const fatalError& e)
     {
-        warning("The changed functions are not used, those of before go on:" + formatted(e));
+        warning("The changed functions are not used, those of before go on:\n" + formatted(e));
     }
 }
 

@@ -125,7 +125,6 @@ TEST_CASE("wrong values name the entry and the line")
     {
         CHECK(e.location().scope == "h.i");
         CHECK(formatted(e).find("file: case/system/test.h.i at line 9.") != word::npos);
-        CHECK(formatted(e).find("--> FOAM FATAL IO ERROR: \n") != word::npos);
     }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "capturedErrors.H"
 #include "errorOf.H"
 #include "token.H"
 
@@ -18,11 +19,18 @@ TEST_CASE("runMain turns every exception into status 1, and keeps the body's own
 
 TEST_CASE("errors read as OpenFOAM's")
 {
-    CHECK(formatted(fatalError("No such thing.")) ==
+    const auto printed = [](const fatalError& error) {
+        const capturedErrors errors;
+        runMain([&]() -> int { throw error; });
+        return errors.text();
+    };
+    const fatalError entry("Bad.", {"c/system/controlDict", "deltaT", 28, 0});
+    CHECK(printed(fatalError("No such thing.")) ==
           "\n--> FOAM FATAL ERROR: \nNo such thing.\n\nFOAM exiting\n\n");
-    CHECK(formatted(fatalError("Bad.", {"c/system/controlDict", "deltaT", 28, 0})) ==
+    CHECK(printed(entry) ==
           "\n--> FOAM FATAL IO ERROR: \nBad.\n\nfile: c/system/controlDict.deltaT at line 28.\n\n"
           "FOAM exiting\n\n");
+    CHECK(formatted(entry) == "Bad.\n\nfile: c/system/controlDict.deltaT at line 28.");
     const fatalError spanning("Bad.", {"c/d", "", 3, 9});
     CHECK(formatted(spanning).find("file: c/d from line 3 to line 9.") != word::npos);
 }

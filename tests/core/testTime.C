@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Time.H"
+#include "capturedErrors.H"
 #include "errorOf.H"
 #include "temporaryFolder.H"
 #include "relative.H"
@@ -236,7 +237,14 @@ TEST_CASE("stopAt, and changes to controlDict while running")
     CHECK(changed("noWriteNow").last == 2);
     CHECK(changed("nextWrite").written == List<scalar>{3});
     CHECK(changed("endTime; endTime 5").last == 5);
-    CHECK(changed("endTime; deltaT").last == 9);               // a broken file is not used
+    {
+        const capturedErrors errors;
+        CHECK(changed("endTime; deltaT").last == 9);  // a broken file is not used
+        CHECK(errors.contains("--> FOAM Warning : The changed controlDict is not used:\n"));
+        CHECK(errors.contains("system/controlDict"));
+        CHECK(!errors.contains("FATAL"));
+        CHECK(!errors.contains("exiting"));
+    }
     CHECK(changed("endTime; endTime 5; enTime 7").last == 9);  // nor one with a word nobody reads
     CHECK(changed("endTime; endTime 5; writeInterval 0").last == 9);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // When function objects write, and what is refused
+#include "capturedErrors.H"
 #include "core/errorOf.H"
 #include "dataFile.H"
 #include "testCase.H"
@@ -73,8 +74,15 @@ TEST_CASE("functions that change during a run")
     ++*r.time, f.execute();
     change("a { type minMax; } c { type minMax; writeInterval 1; } d { type minMax; }");
     CHECK(f.names() == List<word>{"a", "c", "d"});
-    change("a { type nothingLikeThis; }");  // not used
-    change("e { type minMax; feilds (p); }");
+    {
+        const capturedErrors errors;
+        change("a { type nothingLikeThis; }");
+        change("e { type minMax; feilds (p); }");
+        CHECK(errors.contains("functions are not used, those of before go on:\n"));
+        CHECK(errors.contains("Did you mean 'fields'?"));
+        CHECK(!errors.contains("FATAL"));
+        CHECK(!errors.contains("exiting"));
+    }
     CHECK(f.names() == List<word>{"a", "c", "d"});
     change("d { type minMax; } a { type minMax; enabled no; } x { type minMax; timeStart 0.7; }");
     while (r.time->run()) ++*r.time, f.execute();
