@@ -81,7 +81,8 @@ for signal in TERM INT TERM TERM INT; do
     ispfFsiFoam > log 2>&1 & run=$!
     until grep -qs '^Time = ' log || ! kill -0 $run 2> /dev/null; do sleep 0.02; done
     sleep "0.$((RANDOM % 4))$((RANDOM % 10))$((RANDOM % 10))"
-    kill -$signal $run; wait $run || fail "SIG$signal: status $?: $(tail -n 3 log)"
+    kill -$signal $run; wait $run; status=$?
+    [ $status = $((128 + $(kill -l $signal))) ] || fail "SIG$signal: status $status: $(tail -n 3 log)"
     [ "$(tail -n 1 log)" = End ] || fail "SIG$signal: the log does not end with End"
     [ -e 0.625 ] && fail "signalled too late for a test"
     last=$(grep '^Time = ' log | tail -n 1)

@@ -13,6 +13,8 @@ echo U > 0.orig/U
 printf '#!/bin/sh\necho "hello $*"; echo "to stderr" >&2\n' > "$scratch/bin/goodOne"
 printf '#!/bin/sh\nseq 50\nprintf "\\n--> FOAM FATAL ERROR: \\nno more ideas\\n" >&2; exit 3\n' > "$scratch/bin/badOne"
 printf '#!/bin/sh\nseq 50; exit 1\n' > "$scratch/bin/muteOne"
+printf '#!/bin/sh\necho End; exit 143\n' > "$scratch/bin/stoppedOne"
+printf '#!/bin/sh\nkill -KILL $$\n' > "$scratch/bin/killedOne"
 chmod +x "$scratch"/bin/*
 run() { # a script's text; its output goes to $scratch/out
     printf '. %q/RunFunctions\n. %q/CleanFunctions\n%s\n' "$tools" "$tools" "$1" > "$scratch/Allrun"
@@ -50,6 +52,11 @@ says "badOne failed with status 3"; says "$scratch/case/log.badOne"; says "no mo
 grep -qx "after\|50" "$scratch/out" && fail "more than the error, or the script went on"
 run 'runApplication muteOne' && fail "a silent failure does not stop the script"
 says 50; grep -qx 30 "$scratch/out" && fail "more than the last 20 lines"
+run 'runApplication stoppedOne; echo after' && fail "a run that was stopped does not stop the script"
+says "stoppedOne was stopped by SIGTERM"; grep -qx after "$scratch/out" && fail "went on after a stopped run"
+run 'runApplication killedOne; echo after' && fail "a run that was killed does not stop the script"
+says "killedOne was stopped by SIGKILL"
+rm log.stoppedOne log.killedOne
 run 'runApplication noSuchProgram; echo after' && fail "a missing program does not stop the script"
 says "noSuchProgram is not built"
 

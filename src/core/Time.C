@@ -109,7 +109,7 @@ void Time::rewind(scalar value, label index)
     value_ = previous_ = value;
     index_ = index;
     writeNow_ = answer::unknown;
-    stopAfterThis_ = false;
+    stopAfterThis_ = false, stoppedBy_ = 0;
 }
 
 // Two different instants must not share a folder name
@@ -150,13 +150,17 @@ bool Time::writeTime() const
     if (writeNow_ == answer::unknown)
     {
         const bool instant = passesWriteInstant();
-        const bool signal = stopSignal != 0;
-        if (signal)
-            warning("A signal asks to stop: the state of time " + timeName() +
-                    " is written, endTime " + str(endTime_) + " is not reached");
-        stopAfterThis_ = signal || stop_ || stopAt_ == "writeNow" || stopAt_ == "noWriteNow" ||
+        const int signal = stopSignal;
+        if (signal != 0 && value_ + slack() < endTime_)
+        {
+            stoppedBy_ = signal;
+            warning(word(signal == SIGINT ? "SIGINT" : "SIGTERM") +
+                    " asks to stop: the state of time " + timeName() + " is written, endTime " +
+                    str(endTime_) + " is not reached");
+        }
+        stopAfterThis_ = signal != 0 || stop_ || stopAt_ == "writeNow" || stopAt_ == "noWriteNow" ||
                          (stopAt_ == "nextWrite" && instant);
-        const bool stopWrites = signal || (stop_ && stopWrites_) || stopAt_ == "writeNow";
+        const bool stopWrites = signal != 0 || (stop_ && stopWrites_) || stopAt_ == "writeNow";
         writeNow_ = instant || stopWrites ? answer::yes : answer::no;
     }
     return writeNow_ == answer::yes;
@@ -186,15 +190,10 @@ void Time::alsoHit(const List<scalar>& intervals)
     hitIntervals_ = intervals;
 }
 
-void Time::signalled()
-{
-    stopSignal = 1;
-}
-
 void Time::stopOnSignals()
 {
     struct sigaction action = {};
-    action.sa_handler = [](int) { signalled(); };
+    action.sa_handler = [](int signal) { stopSignal = signal; };
     action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
     ::sigaction(SIGTERM, &action, nullptr);
     ::sigaction(SIGINT, &action, nullptr);

@@ -259,6 +259,7 @@ TEST_CASE("requestStop ends the step, with or without writing")
         t.requestStop(write);
         CHECK(t.writeTime() == write);
         CHECK(!t.run());
+        CHECK(t.exitStatus() == 0);
     }
     Time late = c.time();  // asked for after the decision to write: one more step, then written
     ++late;
@@ -327,7 +328,15 @@ TEST_CASE("a signal: the step is finished, written, and the run ends")
     CHECK(t.run());
     std::raise(SIGTERM);
     CHECK(t.run());  // not before the state is written
+    CHECK(t.exitStatus() == 0);
     CHECK(t.writeTime());
     CHECK(!t.run());
+    CHECK(t.exitStatus() == 128 + SIGTERM);
+    const testCase whole("deltaT 1; endTime 2; writeControl none;");
+    Time last = whole.time();  // in the last step it stops nothing
+    last.rewind(1, 1);
+    ++last;
+    CHECK(last.writeTime());
+    CHECK(last.exitStatus() == 0);
     std::signal(SIGINT, SIG_DFL);
 }

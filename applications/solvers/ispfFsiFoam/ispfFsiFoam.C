@@ -89,7 +89,7 @@ int run(const argList& args)
     }
     functions.end();
     info() << "End\n";
-    return 0;
+    return time.exitStatus();
 }
 
 }  // namespace
