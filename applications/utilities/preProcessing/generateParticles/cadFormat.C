@@ -134,6 +134,18 @@ void checkWhole(const word& path, const word& format, const word& text)
         throw fatalError("The file " + path + " is cut off: its last line should " + should);
 }
 
+// One spelling for what IGES and STEP, and programs that write them, call by several
+word commonName(const word& unit)
+{
+    static const std::map<word, word> names = {
+        {"in", "inch"},       {"inches", "inch"},   {"foot", "ft"},       {"feet", "ft"},
+        {"mi", "mile"},       {"uin", "microinch"}, {"millimetre", "mm"}, {"millimeter", "mm"},
+        {"centimetre", "cm"}, {"centimeter", "cm"}, {"metre", "m"},       {"meter", "m"},
+        {"micron", "um"}};
+    const auto known = names.find(unit);
+    return known == names.end() ? unit : known->second;
+}
+
 // Parameters 14 and 15 of the global section (IGES 5.3, 2.2.4.3): a flag, or 3 and a name
 word unitOfIGES(const word& text)
 {
@@ -163,40 +175,63 @@ word unitOfIGES(const word& text)
     }
     if (values.size() < 16) return "";
     const word& flag = values[13];
-    if (flag == "3") return lower(values[14]);
+    if (flag == "3") return commonName(lower(values[14]));
     const auto digit = [](unsigned char c) { return std::isdigit(c); };
     const bool number =
         !flag.empty() && flag.size() < 3 && std::all_of(flag.begin(), flag.end(), digit);
     return number && std::stoul(flag) < flags.size() ? flags[std::stoul(flag)] : "";
 }
 
-// Every instance that is a LENGTH_UNIT (ISO 10303-41)
-word unitOfSTEP(const word& text)
+// Of what stands between = and ; for a LENGTH_UNIT (ISO 10303-41), without blanks
+word unitOfEntity(const word& entity)
 {
     static const std::map<word, word> prefixes = {{"$", "m"},        {"", "m"},
                                                   {".MILLI.", "mm"}, {".CENTI.", "cm"},
                                                   {".MICRO.", "um"}, {".KILO.", "km"}};
-    std::set<word> units;
-    for (size_t at = text.find("LENGTH_UNIT"); at != word::npos;
-         at = text.find("LENGTH_UNIT", at + 1))
+    const size_t si = entity.find("SI_UNIT("), other = entity.find("CONVERSION_BASED_UNIT('");
+    if (other != word::npos)
     {
-        const size_t from = text.rfind('=', at), to = text.find(';', at);
-        if (from == word::npos || to == word::npos) continue;
+        const size_t from = other + 23;
+        return commonName(lower(entity.substr(from, entity.find('\'', from) - from)));
+    }
+    if (si == word::npos) return "";
+    const word prefix = entity.substr(si + 8, entity.find(',', si) - si - 8);
+    const auto known = prefixes.find(prefix);
+    return known != prefixes.end() ? known->second : lower(prefix) + "metre";
+}
+
+// Those that a context assigns; not the mm by which an inch is defined
+word unitOfSTEP(const word& text)
+{
+    std::map<word, word> units;  // by instance
+    word assigned;
+    for (size_t from = 0, to; (to = text.find(';', from)) != word::npos; from = to + 1)
+    {
         word entity = text.substr(from, to - from);
+        if (entity.find("LENGTH_UNIT") == word::npos &&
+            entity.find("GLOBAL_UNIT_ASSIGNED_CONTEXT") == word::npos)
+            continue;
         entity.erase(std::remove_if(entity.begin(), entity.end(),
                                     [](unsigned char c) { return std::isspace(c); }),
                      entity.end());
-        const size_t si = entity.find("SI_UNIT("), other = entity.find("CONVERSION_BASED_UNIT('");
-        if (other != word::npos)
-            units.insert(
-                lower(entity.substr(other + 23, entity.find('\'', other + 23) - other - 23)));
-        else if (si != word::npos)
-        {
-            const auto known = prefixes.find(entity.substr(si + 8, entity.find(',', si) - si - 8));
-            if (known != prefixes.end()) units.insert(known->second);
-        }
+        const size_t equals = entity.find('='),
+                     context = entity.find("GLOBAL_UNIT_ASSIGNED_CONTEXT((");
+        const size_t number = entity.rfind('#', equals);
+        if (equals == word::npos || number == word::npos) continue;
+        if (context != word::npos)
+            assigned +=
+                "," + entity.substr(context + 30, entity.find(')', context) - context - 30) + ",";
+        else if (const word unit = unitOfEntity(entity); !unit.empty())
+            units[entity.substr(number, equals - number)] = unit;
     }
-    return join(List<word>(units.begin(), units.end()), " and ");
+    std::set<word> all, used;
+    for (const auto& [instance, unit] : units)
+    {
+        all.insert(unit);
+        if (assigned.find("," + instance + ",") != word::npos) used.insert(unit);
+    }
+    const std::set<word>& found = used.empty() ? all : used;
+    return join(List<word>(found.begin(), found.end()), " and ");
 }
 
 }  // namespace

@@ -31,7 +31,9 @@ cadModel fromSTL(const word& path, scalar unit)
 }
 
 const std::map<word, scalar> unitsInMetres = {
-    {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"inch", 25.4e-3}};
+    {"m", 1},         {"cm", 1e-2},          {"mm", 1e-3},   {"um", 1e-6},
+    {"km", 1e3},      {"inch", 25.4e-3},     {"ft", 0.3048}, {"mile", 1609.344},
+    {"mil", 25.4e-6}, {"microinch", 25.4e-9}};
 
 scalar unitInMetres(const word& unit)
 {
@@ -43,16 +45,28 @@ scalar unitInMetres(const word& unit)
     return at->second;
 }
 
-// Of the numbers that the reader hands over: gmsh converts to mm what declares its unit
+// What the file's numbers are in
 word unitOf(const word& path, const cadFormat& format, const word& asked)
 {
-    if (format.declares())
+    if (!asked.empty()) unitInMetres(asked);
+    if (!format.declaredUnit.empty())
     {
-        if (!asked.empty() && asked != "mm")
-            throw fatalError("The file " + path + " declares its own unit: remove 'unit " + asked +
-                             ";'");
-        if (format.declaredUnit.empty())
-            warning(path + " declares no unit that is known: it is read in mm");
+        if (!asked.empty() && asked != format.declaredUnit)
+            throw fatalError("The file " + path + " declares that it is in " + format.declaredUnit +
+                             ", but 'unit " + asked + ";' says " + asked +
+                             ". Remove the entry if the file is right, otherwise export it again "
+                             "in its true unit");
+        if (!unitsInMetres.count(format.declaredUnit))
+            warning(path + " declares that it is in " + format.declaredUnit +
+                    ", which is not one known unit: its reader may have taken it for mm. Look at "
+                    "the size that is reported");
+        return format.declaredUnit;
+    }
+    if (format.declares() && asked.empty())
+    {
+        warning(path +
+                " declares no unit that is known: it is read in mm. If that is so, say "
+                "'unit mm;'");
         return "mm";
     }
     if (!asked.empty()) return asked;
@@ -83,7 +97,8 @@ cadModel readCad(const word& path, const cadSettings& settings)
 {
     const cadFormat format = recognisedFormat(path);
     const word unitName = unitOf(path, format, settings.unit);
-    const scalar unit = unitInMetres(unitName);
+    // gmsh converts to mm what declares its unit
+    const scalar unit = unitInMetres(format.declaredUnit.empty() ? unitName : "mm");
     cadModel model = format.name == "STL"
                          ? fromSTL(path, unit)
                          : meshWithGmsh(path, {settings.meshSize / unit, unit, settings.timeLimit});
