@@ -231,9 +231,15 @@ std::unique_ptr<Function1Of<T>> fromDict(const dictionary& d, const word& caseFo
 
 bool isValue(const List<token>& tokens, bool ofVector)
 {
-    scalar v;
     if (tokens.empty()) return false;
-    return tokens[0].is('[') || (ofVector ? tokens[0].is('(') : readNumber(tokens[0].text, v));
+    if (tokens[0].is('[') || ofVector) return tokens[0].is('[') || tokens[0].is('(');
+    // also if it is not a finite one, which is said where it is read
+    const word& text = tokens[0].text;
+    const size_t digit = text.find_first_not_of("+-.");
+    return tokens[0].isPlain() && digit != word::npos &&
+           (std::isdigit(static_cast<unsigned char>(text[digit])) ||
+            text.compare(digit, word::npos, "nan") == 0 ||
+            text.compare(digit, word::npos, "inf") == 0);
 }
 
 }  // namespace
@@ -252,8 +258,8 @@ std::unique_ptr<Function1Of<T>> Function1Of<T>::New(const word& key, const dicti
     if (!tokens.empty()) tokens.erase(tokens.begin());
     if (auto f = named<T>(type); f && tokens.empty()) return f;
     if (type == "table")
-        return std::make_unique<Function1Table<T>>(inlineRows<T>(tokens, dict.where(key)), "clamp",
-                                                   dict.where(key));
+        return std::make_unique<Function1Table<T>>(inlineRows<T>(tokens, dict.where(key), &wanted),
+                                                   "clamp", dict.where(key));
     if (type == "polynomial") return powers<T>(tokens, dict.where(key));
     if (type == "constant" || type == "uniform")
         return std::make_unique<constant<T>>(

@@ -13,13 +13,14 @@ namespace ispf
 namespace
 {
 
-// ((t v) (t v) ...), optionally with the count in front
+// ((t v) (t v) ...), optionally with the count in front and, if `unit` is given, the values' unit behind it
 template <class T>
 class rowReader : private valueReader
 {
 public:
-    rowReader(const List<token>& tokens, const fileLocation& where)
-        : valueReader(tokens, "table", where)
+    rowReader(const List<token>& tokens, const fileLocation& where,
+              const dimensionSet* unit = nullptr)
+        : valueReader(tokens, "table", where), unit_(unit)
     {
     }
 
@@ -39,11 +40,19 @@ public:
             rows.push_back(r);
         }
         next(')');
+        const scalar factor = unit_ ? readUnit(*unit_) : 1;
+        for (Function1Row<T>& r : rows) r.value *= factor;
+        if (!ends() && at('['))
+            throw fatalError(
+                "A unit cannot stand here: 'units ([s] [m]);' beside the table gives "
+                "those of times and values.",
+                here());
         if (!ends()) failRow("nothing after it");
         return rows;
     }
 
 private:
+    const dimensionSet* unit_;
     bool ends() const { return done() || peek().kind == token::end; }
     [[noreturn]] void failRow(const word& wanted) const
     {
@@ -273,9 +282,10 @@ private:
 }  // namespace
 
 template <class T>
-List<Function1Row<T>> inlineRows(const List<token>& tokens, const fileLocation& where)
+List<Function1Row<T>> inlineRows(const List<token>& tokens, const fileLocation& where,
+                                 const dimensionSet* unit)
 {
-    return rowReader<T>(tokens, where).all();
+    return rowReader<T>(tokens, where, unit).all();
 }
 
 template <class T>
@@ -310,13 +320,15 @@ List<Function1Row<T>> inUnits(List<Function1Row<T>> rows, const dictionary& dict
     return rows;
 }
 
-template List<Function1Row<scalar>> inlineRows(const List<token>&, const fileLocation&);
+template List<Function1Row<scalar>> inlineRows(const List<token>&, const fileLocation&,
+                                               const dimensionSet*);
 template List<Function1Row<scalar>> listFileRows(const dictionary&, const word&);
 template List<Function1Row<scalar>> csvFileRows(const dictionary&, const word&,
                                                 const dimensionSet&);
 template List<Function1Row<scalar>> inUnits(List<Function1Row<scalar>>, const dictionary&,
                                             const dimensionSet&);
-template List<Function1Row<vector>> inlineRows(const List<token>&, const fileLocation&);
+template List<Function1Row<vector>> inlineRows(const List<token>&, const fileLocation&,
+                                               const dimensionSet*);
 template List<Function1Row<vector>> listFileRows(const dictionary&, const word&);
 template List<Function1Row<vector>> csvFileRows(const dictionary&, const word&,
                                                 const dimensionSet&);

@@ -54,6 +54,10 @@ void valueReader::expect(char c, const word& wanted)
 void valueReader::expectEnd() const
 {
     if (done()) return;
+    if (at('['))
+        throw fatalError("A unit [...] cannot stand behind the value of '" + key_ +
+                             "': give it in SI without one.",
+                         here());
     throw fatalError("Unexpected " + peek().described() + " behind the value of '" + key_ +
                          "'. Perhaps a ';' is missing before it.",
                      here());

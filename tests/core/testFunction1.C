@@ -24,6 +24,8 @@ TEST_CASE("a function may be a number")
          {"f 2.5;", "f constant 2.5;", "f [0 1 0 0 0 0 0] 2.5;", "f { type constant; value 2.5; }"})
         CHECK(made(text)->value(7) == 2.5);
     CHECK_ERROR(made("f foo 2.5;"), "Valid types are: constant csvFile", 1);
+    for (const char* v : {"1e400", "-1e400", "nan", "-inf", "1.5x"})
+        CHECK_ERROR(made(word("f ") + v + ";"), word("a finite number, found '") + v + "'", 1);
     CHECK_ERROR(made("\nf;"), "is a function of time", 2);
     CHECK_ERROR(made("f { type tabel; values ((0 0)); }"), "Did you mean 'table'?", 1);
     CHECK_ERROR(made("g 1;"), "'f' is missing", 0);
@@ -170,6 +172,11 @@ TEST_CASE("units: behind a number, of a table, of the columns of a csv file")
     };
     CHECK(inUnits("f 120 [mmHg];", dims::pressure)->value(0) == relative(15998.6865));
     CHECK(inUnits("f constant 6 [l/min];", dims::flowRate)->value(0) == relative(1e-4));
+    CHECK(inUnits("f table ((0 0) (1 120)) [mmHg];", dims::pressure)->value(1) ==
+          relative(15998.6865));
+    CHECK_ERROR(inUnits("f table ((0 0) (1 120)) [mm];", dims::pressure), "is given in [mm]", 1);
+    CHECK_ERROR(inUnits("f { type table; values ((0 0) (1 120)) [mmHg]; }", dims::pressure),
+                "A unit cannot stand here: 'units ([s] [m]);'", 1);
     const auto table =
         inUnits("f { type table; values ((0 0) (20 3)); units ([ms] [cm]); }", dims::length);
     CHECK(table->value(0.01) == relative(0.015));

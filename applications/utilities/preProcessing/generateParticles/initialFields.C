@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "initialFields.H"
 
+#include "token.H"
+
 namespace ispf
 {
 
@@ -28,7 +30,14 @@ initialFields::initialFields(const dictionary& zone, scalar dx, int nDims)
             U_.push_back(ofPosition(text, dx, where_));
     if (!U_.empty() && U_.size() != 3)
         zone.fail("U", "U wants three formulas, e.g. (\"sin(2*pi*y)\" 0 0)");
-    if (zone.found("p")) p_.push_back(ofPosition(zone.get<word>("p"), dx, zone.where("p")));
+    if (!zone.found("p")) return;
+    // a number may have a unit, a formula is in SI
+    const List<word> tokens = zone.tokens("p");
+    scalar number;
+    const bool hasUnit = tokens.size() > 1 && (tokens[0] == "[" || readNumber(tokens[0], number));
+    p_.push_back(
+        ofPosition(hasUnit ? str(zone.get<scalar>("p", dims::pressure), 17) : zone.get<word>("p"),
+                   dx, zone.where("p")));
 }
 
 vector initialFields::U(const vector& x) const
