@@ -24,6 +24,21 @@ mm.step   1e-3    1e-06
 m.stp     1       1000
 inch.STEP 25.4e-3 0.016387
 END2
+# a unit entry may say the same, but not otherwise
+dict 'file "constant/inch.STEP"; unit inch;' 25.4e-3
+accepted "inch.STEP that is in inch" "STEP in inch, as it declares" "^water  *0.016387  *1000 "
+dict 'file "constant/inch.STEP"; unit mm;'
+refused "inch.STEP for mm" "inch.STEP declares that it is in inch, but 'unit mm;' says mm" "at line 1"
+dict 'file "constant/m.stp"; unit inch;'
+refused "m.stp for inch" "m.stp declares that it is in m, but 'unit inch;' says inch"
+dict 'file "constant/mm.step"; unit mm;'
+accepted "mm.step that is in mm" "^water  *1e-06  *1000 "
+sed "3s/2,2HMM,/1,2HIN,/" "$geometry/hccB.igs" > constant/unit.igs
+dict 'file "constant/unit.igs"; unit mm; colour (204 0 0);'
+refused "IGES in inch for mm" "declares that it is in inch, but 'unit mm;' says mm"
+sed "3s/2,2HMM,/0,2HMM,/" "$geometry/hccB.igs" > constant/unit.igs
+dict 'file "constant/unit.igs"; unit cm; colour (204 0 0);' 0.04
+accepted "IGES without a unit, said to be in cm" "IGES in cm" "^water .* 74 "
 # the global section of an IGES file: flag 2 is mm, 6 m, 1 inch; the wall's volume in cubes of the unit stays
 while read -r flag unit; do
     sed "3s/2,2HMM,/$flag,/" "$geometry/hccB.igs" > constant/unit.igs
@@ -85,6 +100,18 @@ refused "a script that ends the process" "exit.geo with gmsh ended its process w
 echo 'SystemCall "kill -SEGV $PPID";' > constant/killed.geo
 dict 'file "constant/killed.geo"; unit mm;'
 refused "a reader that is ended" "was ended by the signal Segmentation fault after"
+grep -q "$(printf '\033')" out && fail "colours of a terminal are quoted: $(cat -v out)"
+dict 'file "constant/mm.step"; group C;'
+refused "a group that is not there" "No face of" "has group C" "6 faces with no colours and no groups"
+dict 'shape box; min (0 0 0); max (1e300 1 1);'
+refused "a box beyond all sense" "The coordinate 1e+300 m of max" "zones.water.max at line 1"
+dict 'shape sphere; radius 0.01; centre (0 1e300 0);'
+refused "a sphere beyond all sense" "The coordinate 1e+300 m of centre" "zones.water.centre at line 1"
+dict 'shape box; min (0 0 0); max (0.01 0.01 0.01); p "1e3*z" [bar];'
+refused "a unit behind a formula" "A unit [...] cannot stand behind the value of 'p'" "zones.water.p at line 1"
+dict 'shape box; min (0 0 0); max (0.01 0.01 0.01); p 2 [bar];'
+accepted "a unit behind a number"
+h5dump -d /VTKHDF/PointData/p 0/particles.hdf > out; grep -q "(0): 200000, " out || fail "p 2 [bar]: $(head out)"
 [ -z "$(ls -A tmp)" ] || fail "files are left: $(ls tmp)"
 ! pgrep -P $$ generatePartic > /dev/null || fail "a process is left"
 [ $failures = 0 ]

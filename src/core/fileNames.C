@@ -39,11 +39,14 @@ word caseFolder()
 word readText(const word& path)
 {
     if (isFolder(path)) throw fatalError("Cannot read " + path + ": it is a folder.");
-    // of a shell's own pipes, which are below /dev, the end comes
     std::error_code ignored;
-    if (fs::is_fifo(path, ignored) && path.rfind("/dev/", 0) != 0)
-        throw fatalError("Cannot read " + path +
-                         ": it is a named pipe, from which an end may never come.");
+    const fs::file_status status = fs::status(path, ignored);
+    // of a shell's own pipes, which are below /dev, the end comes
+    const bool ownPipe = fs::is_fifo(status) && path.rfind("/dev/", 0) == 0;
+    if (fs::exists(status) && !fs::is_regular_file(status) && !ownPipe)
+        throw fatalError("Cannot read " + path + ": it is " +
+                         (fs::is_fifo(status) ? "a named pipe" : "a device and no file") +
+                         ", from which an end may never come.");
     errno = 0;
     std::ifstream in(path, std::ios::binary);
     if (!in) throw fatalError("Cannot read " + path + ": " + std::strerror(errno) + ".");

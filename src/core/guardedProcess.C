@@ -105,6 +105,17 @@ private:
     void* page_;
 };
 
+// Without the colours of a terminal, ESC [ ... m
+word uncoloured(word text)
+{
+    for (size_t at = 0; (at = text.find("\033[", at)) != word::npos;)
+    {
+        const size_t end = text.find_first_not_of("0123456789;", at + 2);
+        text.erase(at, end == word::npos ? end : end + 1 - at);
+    }
+    return text;
+}
+
 word lastLines(const word& text, int count)
 {
     const size_t end = text.find_last_not_of(" \n") + 1;
@@ -214,7 +225,7 @@ word howItEnded(int status)
 
 word lastSaid(const word& printed)
 {
-    const word last = lastLines(printed, 5);
+    const word last = lastLines(uncoloured(printed), 5);
     return last.empty() ? word(" It said nothing.") : " The last it said:\n" + last;
 }
 
@@ -247,7 +258,7 @@ unpacker runGuarded(const word& what, const processLimits& limits,
         throw fatalError(what + " " + howItEnded(status) + " after " + str(now() - begin, 3) +
                          " s." + limits.ifEnded + lastSaid(printed));
     if (shared->result == outcome::done) return unpacker(std::move(handed));
-    const word said = handed.substr(std::min(size_t(shared->textAt), handed.size()));
+    const word said = uncoloured(handed.substr(std::min(size_t(shared->textAt), handed.size())));
     throw fatalError(shared->result == outcome::refused ? said : what + ": " + said);
 }
 

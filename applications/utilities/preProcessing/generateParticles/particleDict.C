@@ -31,18 +31,23 @@ void checkName(const dictionary& dict, const word& name)
         dict.fail(name, "'" + name + "' cannot be a name here: use letters, digits, _ - and .");
 }
 
-// "6 faces with the colours (255 0 0) (0 0 255)"
+// "6 faces with the colours (255 0 0) (0 0 255) and the groups inlet"
 word facesOf(const cadModel& model)
 {
     List<word> seen;
+    std::set<word> groups;
+    for (const cadVolume& v : model.volumes) groups.insert(v.groups.begin(), v.groups.end());
     for (const cadFace& f : model.faces)
     {
+        groups.insert(f.groups.begin(), f.groups.end());
         const word c = word("(") + std::to_string(f.colour[0]) + " " + std::to_string(f.colour[1]) +
                        " " + std::to_string(f.colour[2]) + ")";
         if (f.coloured && std::find(seen.begin(), seen.end(), c) == seen.end()) seen.push_back(c);
     }
     return std::to_string(model.faces.size()) + " faces with " +
-           (seen.empty() ? word("no colours") : "the colours " + join(seen));
+           (seen.empty() ? word("no colours") : "the colours " + join(seen)) + " and " +
+           (groups.empty() ? word("no groups")
+                           : "the groups " + join(List<word>(groups.begin(), groups.end())));
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ word shapeOf(const dictionary& dict)
 
 // Radii beyond these, in dx, are mistakes of the unit
 constexpr scalar smallest = 0.1;
+// Coordinates beyond this, in dx, are as well
+constexpr scalar farthest = 1e7;
 constexpr scalar largest(int nDims)
 {
     return nDims == 3 ? 2e3 : 1e4;
@@ -51,11 +53,22 @@ std::pair<scalar, scalar> ringOf(const dictionary& dict, scalar dx, int nDims)
     return {inner, outer};
 }
 
-// Lower and upper corner
-std::pair<vector, vector> cornersOf(const dictionary& dict, int nDims)
+// A point within what numbers resolve beside dx
+vector placeOf(const dictionary& dict, const word& key, scalar dx, int nDims)
 {
-    const vector low = dict.get<vector>("min", dims::length),
-                 high = dict.get<vector>("max", dims::length);
+    const vector x = dict.get<vector>(key, dims::length);
+    for (int d = 0; d < nDims; ++d)
+        if (!(std::abs(x[d]) <= farthest * dx))
+            dict.fail(key, "The coordinate " + str(x[d]) + " m of " + key + " is " +
+                               str(x[d] / dx, 3) + " dx from the origin, more than " +
+                               str(farthest) + " dx. Are dx and the unit right?");
+    return x;
+}
+
+// Lower and upper corner
+std::pair<vector, vector> cornersOf(const dictionary& dict, scalar dx, int nDims)
+{
+    const vector low = placeOf(dict, "min", dx, nDims), high = placeOf(dict, "max", dx, nDims);
     for (int d = 0; d < nDims; ++d)
         if (!(low[d] < high[d]))
             dict.fail("max", "Every coordinate of max must be greater than that of min");
@@ -63,10 +76,9 @@ std::pair<vector, vector> cornersOf(const dictionary& dict, int nDims)
 }
 
 // The ends of an axis
-std::pair<vector, vector> endsOf(const dictionary& dict)
+std::pair<vector, vector> endsOf(const dictionary& dict, scalar dx)
 {
-    const vector p1 = dict.get<vector>("point1", dims::length),
-                 p2 = dict.get<vector>("point2", dims::length);
+    const vector p1 = placeOf(dict, "point1", dx, 3), p2 = placeOf(dict, "point2", dx, 3);
     if (!((p2 - p1).norm() > 0)) dict.fail("point2", "point1 and point2 are the same point");
     return {p1, p2};
 }
@@ -179,16 +191,16 @@ triSurface flatShape(const dictionary& dict, scalar dx)
     const scalar h = prismHalfHeight * dx;
     if (shape == "box")
     {
-        auto [lo, hi] = cornersOf(dict, 2);
+        auto [lo, hi] = cornersOf(dict, dx, 2);
         lo[2] = -h, hi[2] = h;
         return box(lo, hi);
     }
     if (shape == "ellipsoid")
-        return prism(dict.get<vector>("centre", dims::length), semiAxesOf(dict, dx, 2), 0, dx);
+        return prism(placeOf(dict, "centre", dx, 2), semiAxesOf(dict, dx, 2), 0, dx);
     if (shape == "sphere")
-        return prism(dict.get<vector>("centre", dims::length),
+        return prism(placeOf(dict, "centre", dx, 2),
                      vector::Constant(radiusOf(dict, "radius", dx, 2)), 0, dx);
-    const vector centre = dict.get<vector>("point1", dims::length);
+    const vector centre = placeOf(dict, "point1", dx, 2);
     dict.getOrDefault<vector>("point2", centre, dims::length);
     if (shape == "cylinder")
         return prism(centre, vector::Constant(radiusOf(dict, "radius", dx, 2)), 0, dx);
@@ -201,15 +213,15 @@ triSurface fullShape(const dictionary& dict, scalar dx)
     const word shape = shapeOf(dict);
     if (shape == "box")
     {
-        const auto [low, high] = cornersOf(dict, 3);
+        const auto [low, high] = cornersOf(dict, dx, 3);
         return box(low, high);
     }
     if (shape == "sphere")
-        return ellipsoid(dict.get<vector>("centre", dims::length),
+        return ellipsoid(placeOf(dict, "centre", dx, 3),
                          vector::Constant(radiusOf(dict, "radius", dx, 3)), dx);
     if (shape == "ellipsoid")
-        return ellipsoid(dict.get<vector>("centre", dims::length), semiAxesOf(dict, dx, 3), dx);
-    const auto [p1, p2] = endsOf(dict);
+        return ellipsoid(placeOf(dict, "centre", dx, 3), semiAxesOf(dict, dx, 3), dx);
+    const auto [p1, p2] = endsOf(dict, dx);
     if (shape == "cylinder") return tube(p1, p2, 0, radiusOf(dict, "radius", dx, 3), dx);
     const auto [inner, outer] = ringOf(dict, dx, 3);
     return tube(p1, p2, inner, outer, dx);
