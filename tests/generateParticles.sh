@@ -104,7 +104,7 @@ refused "no unit" "unit" "cube.stl"
 dict 'file "constant/cube.stl"; unit furlong;'
 refused "unknown unit" "furlong" "mm" "inch"
 dict "$igs unit inch;"
-refused "unit of a file that has its own" "declares its own unit"
+refused "unit of a file that has its own" "declares that it is in mm, but 'unit inch;' says inch"
 dict 'file "constant/cube.stl"; unit um;'
 refused "wrong unit" "could not hold a particle" "unit"
 dict "$igs colour (1 2 3);" 5e-3
