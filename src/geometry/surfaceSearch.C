@@ -213,6 +213,36 @@ scalar surfaceSearch::signedDistance(const vector& p, scalar radius) const
     return q.found ? q.signedDistance(p) : std::numeric_limits<scalar>::infinity();
 }
 
+List<label> surfaceSearch::inBox(const boundBox& box) const
+{
+    const auto meets = [&](const boundBox& b) {
+        return (b.min.array() <= box.max.array()).all() && (box.min.array() <= b.max.array()).all();
+    };
+    List<label> found;
+    label stack[maxDepth];
+    int top = 0;
+    if (!nodes_.empty()) stack[top++] = 0;
+    while (top > 0)
+    {
+        const label i = stack[--top];
+        const node& n = nodes_[i];
+        if (!meets(n.box)) continue;
+        if (n.second != 0)
+        {
+            stack[top++] = n.second, stack[top++] = i + 1;
+            continue;
+        }
+        for (label k = n.begin; k < n.end; ++k)
+        {
+            boundBox of;
+            for (const vector& x : corners_[k]) of.add(x);
+            if (meets(of)) found.push_back(order_[k]);
+        }
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
 bool surfaceSearch::within(const vector& p, scalar radius) const
 {
     if (nodes_.empty()) return false;

@@ -110,11 +110,6 @@ public:
 
     void cutBy(const facet& other)
     {
-        for (int d = 0; d < 3; ++d)
-        {
-            const auto [low, high] = std::minmax({other[0][d], other[1][d], other[2][d]});
-            if (low > box_.max[d] || high < box_.min[d]) return;
-        }
         const plane p = planeOf(other);
         std::array<vector, 2> ends = {vector::Zero(), vector::Zero()};
         if (std::abs(p.normal.dot(plane_.normal)) > parallel ||
@@ -128,6 +123,7 @@ public:
         pieces_ = std::move(kept);
     }
 
+    const boundBox& box() const { return box_; }
     const List<facet>& pieces() const { return pieces_; }
 
 private:
@@ -139,8 +135,8 @@ private:
 
 }  // namespace
 
-triSurface cutFacets(const triSurface& surface, const List<const triSurface*>& others, scalar large,
-                     scalar tolerance)
+triSurface cutFacets(const triSurface& surface, const List<const surfaceSearch*>& others,
+                     scalar large, scalar tolerance)
 {
     triSurface result;
     result.patchNames = surface.patchNames;
@@ -149,8 +145,9 @@ triSurface cutFacets(const triSurface& surface, const List<const triSurface*>& o
         const facet f = facetOf(surface, t);
         cutter cut(f, tolerance);
         if (std::max({(f[1] - f[0]).norm(), (f[2] - f[1]).norm(), (f[0] - f[2]).norm()}) > large)
-            for (const triSurface* other : others)
-                for (label u = 0; u < other->size(); ++u) cut.cutBy(facetOf(*other, u));
+            for (const surfaceSearch* other : others)
+                for (const label u : other->inBox(cut.box()))
+                    cut.cutBy(facetOf(other->surface(), u));
         for (const facet& piece : cut.pieces())
             result.add(piece[0], piece[1], piece[2], surface.patch[t]);
     }

@@ -157,7 +157,8 @@ void zoneGeometry::classify()
 {
     const scalar tiny = 1e-6 * dx_;
     List<triSurface> skin;  // of each body, inside the symmetry planes, without prism ends
-    List<surfaceSearch> own(zones_.size());
+    List<surfaceSearch> own(zones_.size()), whole;
+    for (const body& b : bodies_) whole.emplace_back(b.surface);
     List<triSurface> zoneSkin(zones_.size());
     for (const body& b : bodies_)
     {
@@ -171,10 +172,10 @@ void zoneGeometry::classify()
     boundary_.resize(zones_.size());
     for (size_t k = 0; k < bodies_.size(); ++k)
     {
-        List<const triSurface*> others;
-        for (const body& b : bodies_)
-            if (&b != &bodies_[k]) others.push_back(&b.surface);
-        const triSurface s = cutFacets(skin[k], others, 1.5 * dx_, probe * dx_);
+        List<const surfaceSearch*> others;
+        for (size_t b = 0; b < bodies_.size(); ++b)
+            if (b != k) others.push_back(&whole[b]);
+        const triSurface s = cutFacets(skin[k], others, 0.3 * dx_, probe * dx_);
         for (label t = 0; t < s.size(); ++t)
         {
             vector c = s.centre(t);

@@ -5,6 +5,7 @@
 #include "fileNames.H"
 #include "shapes.H"
 #include "siteFile.H"
+#include "surfaceTopology.H"
 #include "surfaceRepair.H"
 #include <algorithm>
 #include <cmath>
@@ -245,7 +246,10 @@ List<body> particleDict::cadBodies(const word& zone, const dictionary& dict)
     if (faces.empty())
         dict.fail("file", "No face of " + cad.path + " has " + selector.describe() + " for zone " +
                               zone + "; the file has " + facesOf(cad));
-    bodies.push_back(cadBody(zone, dict, cad, faces, 0));
+    // facets alone: bodies that touch are told by their surfaces
+    const body all = cadBody(zone, dict, cad, faces, 0);
+    for (triSurface& part : separateTouching(all.surface, 1e-3 * dx))
+        bodies.push_back({all.zone, std::move(part), 0});
     return bodies;
 }
 
