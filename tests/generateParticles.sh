@@ -281,16 +281,16 @@ echo 'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 10, 10, 10}; Box(2) = {10, 3
 { cat constant/touching.geo; echo 'BooleanUnion { Volume{1}; Delete; } { Volume{2}; Delete; }'; } > constant/union.geo
 gmsh -0 -format step -o constant/touching.step constant/touching.geo > /dev/null
 gmsh -2 -clmin 20 -clmax 20 -format stl -o constant/touching.stl constant/touching.geo > /dev/null
-gmsh -2 -clmin 0.8 -clmax 0.8 -format stl -o constant/fine.stl constant/touching.geo > /dev/null
+gmsh -2 -clmin 1.6 -clmax 1.6 -format stl -o constant/fine.stl constant/touching.geo > /dev/null
 for kind in lattice bodyFitted; do
     expected=""
     for file in union.geo touching.step touching.stl fine.stl; do
-        dict "file \"constant/$file\"; unit mm;" 0.5e-3
+        dict "file \"constant/$file\"; unit mm;" 1e-3
         sed -i "s/placement lattice/placement $kind/" system/particleDict
         generateParticles > out 2>&1 || fail "$file, $kind: $(tail -n 8 out)"
         found=$(awk '/^water .*%?/ && $3 > 0 { print $3, $9 < 0.7 ? "too close: " $9 : "" } /rigid wall/' out | tr '\n' ' ')
         [ -n "$expected" ] || expected=$found
-        [[ $found = "$expected" && $found = 8640\ * && $found != *close* ]] ||
+        [[ $found = "$expected" && $found = 1080\ * && $found != *close* ]] ||
             fail "bodies that touch, $file, $kind: $found, not $expected"
     done
 done
