@@ -142,6 +142,27 @@ for walls in particles mirror; do
     tr -d '()' < postProcessing/f/0/force.dat | awk '$1 > 0.25 { sum += $8; ++n } END { f = sum/n/1000; exit !(f > 0.98 && f < 1.02) }' ||
         fail "a drop between $walls: $(tail -n 1 postProcessing/f/0/force.dat)"
 done
+
+# ---- moments: a cylinder that turns around one at rest (Taylor & Couette), 4 pi mu omega /(1/ri^2 - 1/ro^2) ---------
+for walls in particles mirror; do
+    mkdir -p "$scratch/turning.$walls"/{constant,system}; cd "$scratch/turning.$walls" || exit 1
+    echo "rho 1; mu 1;" > constant/physicalProperties
+    echo "inner { type wall; representation $walls; }
+        outer { type wall; representation $walls; rotation { origin (0 0 0); axis (0 0 1); omega 2; } }" > constant/boundary
+    echo 'dx 0.06; nDims 2; zones { f { phase fluid; shape annulus; point1 (0 0 0); innerRadius 0.5; outerRadius 1; } }
+        patches { inner { box ((-0.6 -0.6 -1) (0.6 0.6 1)); } } defaultPatch outer;' > system/particleDict
+    echo "coupling monolithic;" > system/sphSolution; : > system/sphSchemes
+    echo "endTime 0.5; deltaT 0.005; writeControl timeStep; writeInterval 100;
+        functions { f { type forces; patches (inner outer); } e { type energy; } }" > $control
+    place; solved
+    for wall in inner outer; do
+        tr -d '()' < postProcessing/f/0/moment_$wall.dat | awk -v sign=$([ $wall = inner ] && echo 1 || echo -1) '
+            $1 > 0.35 { sum += $4; ++n } END { m = sign*sum/n/8.37758; exit !(m > 0.95 && m < 1.05) }' ||
+            fail "a cylinder of $walls that turns: $wall: $(tail -n 1 postProcessing/f/0/moment_$wall.dat)"
+    done
+    awk '$1 > 0.35 { sum += $6; ++n } END { p = sum/n/16.7552; exit !(p > 0.95 && p < 1.05) }' postProcessing/e/0/energy.dat ||
+        fail "a cylinder of $walls that turns: power: $(tail -n 1 postProcessing/e/0/energy.dat)"
+done
 newCase membrane bulging
 ramp=$(awk 'BEGIN { for (i = 0; i <= 50; ++i) { t = i*0.0025; printf "(%.6g %.8g)", t, 0.5*t*t } }')
 sed -i "s/displacement { .* } }/displacement table ($ramp); }/" constant/boundary

@@ -31,7 +31,25 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
     // what lies beyond symmetry planes and cyclic sides comes again as an image
     for (wall& w : walls_)
         std::erase_if(w.rigid, [&](const vector& x) { return group.beyond(x) > 1e-6 * cloud.dx; });
+    findFeet();
     lattice_.cover(cloud, walls_);
+}
+
+// A neighbour that sees a rigid particle takes its velocity for that of the wall between them.  Behind a wall that
+// rotates it would be another one, and turn the fluid twice
+void wallSet::findFeet()
+{
+    for (const body& b : bodies_)
+        for (const label index : b.walls)
+        {
+            wall& w = walls_[index];
+            if (w.plane || !w.motion.rotates()) continue;
+            for (const vector& x : w.rigid)
+            {
+                const surfaceFoot f = b.surface->find(x);
+                w.rigidFoot.push_back(f.found ? f.foot : x);
+            }
+        }
 }
 
 void wallSet::makeBodies(const word& caseFolder, const dictionary& patches, const imageGroup& group,
@@ -352,9 +370,10 @@ void wallSet::addRigid(particleCloud& cloud) const
     if (empty() || cloud.n() == 0) return;
     const occupancy cells(cloud, support_);
     for (const wall& w : walls_)
-        for (const vector& x : w.rigid)
-            if (const vector at = w.frame.toSpace(x); cells.near(at))
-                cloud.addRigid(at, w.velocity.at(at));
+        for (size_t k = 0; k < w.rigid.size(); ++k)
+            if (const vector at = w.frame.toSpace(w.rigid[k]); cells.near(at))
+                cloud.addRigid(
+                    at, w.velocity.at(w.rigidFoot.empty() ? at : w.frame.toSpace(w.rigidFoot[k])));
 }
 
 }  // namespace ispf
