@@ -15,6 +15,12 @@ void boundary::setStep(scalar t0, scalar t1)
     for (openFace& face : content_->openFaces) face.setStep(t0, t1);
 }
 
+void boundary::setStepBehind(scalar t0, scalar t1)
+{
+    setStep(t0, t1);
+    content_->walls.moveTo(t1);
+}
+
 void boundary::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bodyForce) const
 {
     std::fill(cloud.pFixed.begin(), cloud.pFixed.end(), 0);

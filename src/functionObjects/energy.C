@@ -11,7 +11,7 @@
 //                   (sphc::laplacian) takes out; pairs with images count half, the other half is the image's
 //                   less mu int u.W n dA on turning walls, W the gradient of their velocity: 2 mu int D:D dV
 //     wallPower     what moving walls put in: minus the load on them, see bodyLoad.H, times their velocity, of the step
-//                   ahead
+//                   that led there
 //     openPower     what comes in through open faces: - int (p + 1/2 rho u^2 - rho b.x) u.n - u.tau.n dA, by surfaceFit
 //     dissipated, wallWork, openWork    their integrals since the case began, by the trapezoidal rule over the steps
 //                   at which it is executed

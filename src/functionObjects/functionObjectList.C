@@ -162,10 +162,12 @@ bool functionObjectList::due(trigger& t) const
     return t.passed > before;
 }
 
-// Where they are now to the last digit, and as they will move: what a state tells as well
+// Where they are now to the last digit, and as they have moved in the step that led here: what a state tells as well
 void functionObjectList::placeWalls()
 {
-    case_.walls->setStep(case_.time.value(), case_.time.value() + case_.time.deltaT());
+    const scalar now = case_.time.value(), dt = case_.time.deltaT();
+    if (case_.time.timeIndex() == 0) case_.walls->setStep(now, now + dt);
+    else case_.walls->setStepBehind(now - dt, now);
 }
 
 void functionObjectList::restore()
