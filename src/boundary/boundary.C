@@ -110,10 +110,15 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
 {
     content& c = *content_;
     cloud.clearGhosts();
+    const scalar dt = t1 - c.t0;
+    for (const cyclicPair& pair : c.cyclic)
+    {
+        patchBalance& b = c.balance[pair.index];
+        b.flux = pair.flux(cloud, c.support), b.volume += b.flux * dt;
+    }
     for (const openFace& face : c.openFaces) face.keepAlongNormals(cloud);
     c.guard.rememberWalls(c.walls);
     const List<scalar> swept = c.walls.moveTo(t1);
-    const scalar dt = t1 - c.t0;
     label pushed = 0;
     if (!c.walls.empty())
     {

@@ -34,7 +34,7 @@ void boundary::printBalance(const particleCloud& cloud) const
             if (face.name() == b.name) return true;
         return false;
     };
-    word fluxes;
+    word fluxes, cyclic;
     scalar sum = 0;
     label created = 0, deleted = 0, pushed = 0;
     for (const patchBalance& b : patches)
@@ -44,9 +44,14 @@ void boundary::printBalance(const particleCloud& cloud) const
         const scalar flux = symmetryFactor() * b.flux;  // of the whole body, as in the ledger
         fluxes += (fluxes.empty() ? "" : ", ") + b.name + " " + str(flux), sum += flux;
     }
-    if (!fluxes.empty())
-        info() << "patch flux [m" << cloud.nDims << "/s, out]: " << fluxes << ", sum " << str(sum)
-               << "\n";
+    const word unit = "[m" + std::to_string(cloud.nDims) + "/s, ";
+    if (!fluxes.empty()) fluxes = unit + "out]: " + fluxes + ", sum " + str(sum);
+    // no part of the sum: what leaves at one of the planes enters at the other
+    for (const cyclicPair& pair : content_->cyclic)
+        cyclic += (cyclic.empty() ? unit + "along the separation]: " : ", ") + pair.name + " " +
+                  str(symmetryFactor() * content_->balance[pair.index].flux);
+    if (!fluxes.empty() && !cyclic.empty()) fluxes += "; ";
+    if (!(fluxes + cyclic).empty()) info() << "patch flux " << fluxes << cyclic << "\n";
     const auto strays = cloud.history.find("strays");
     if (created + deleted + pushed > 0 || hasOpen() || strays != cloud.history.end())
         info() << "particles: " << cloud.n() << "; so far created " << created << ", deleted "

@@ -19,11 +19,14 @@ void boundary::content::addPatch(const word& name, const dictionary& dict, const
         group.addSymmetryPlane(name, dict.get<vector>("point", dims::length),
                                nonZero(dict, "normal"));
     else if (type == "cyclic")
-        group.addCyclic(name, dict.get<vector>("point", dims::length),
-                        nonZero(dict, "separation", dims::length),
+    {
+        cyclic.push_back({name, dict.get<vector>("point", dims::length),
+                          nonZero(dict, "separation", dims::length), index});
+        group.addCyclic(name, cyclic.back().point, cyclic.back().separation,
                         dict.found("pressureDrop")
                             ? Function1::New("pressureDrop", dict, caseFolder, dims::pressure)
                             : nullptr);
+    }
     else if (type == "open") openIndex.push_back(index);
     else
     {
@@ -165,6 +168,7 @@ boundary::boundary(const word& caseFolder, const dictionary& patches, const part
     : content_(std::make_unique<content>())
 {
     content& c = *content_;
+    c.support = support;
     for (const word& name : patches.dictKeys()) c.addPatch(name, patches.subDict(name), caseFolder);
     c.group.close(cloud, support);
     c.checkDrops(patches, cloud, support);

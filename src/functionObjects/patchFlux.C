@@ -6,7 +6,8 @@
 //
 // patch: what crosses it by the boundary's own books, the sweep of a moving wall and the velocity on an open face:
 //     `flux` in the last step and `volume` since the case began, out is positive; and the particles that the modelled
-//     part of an open face has `created` and `deleted`.
+//     part of an open face has `created` and `deleted`.  Of a cyclic patch: the fluid that passes, positive along the
+//     separation.  Walls that stand and symmetry planes pass nothing: zero.
 // surface: the integral of U.n over constant/triSurface/<surface>.stl, U fitted to the particles at
 //     the middle of each triangle; positive along the triangles' normals.  `covered` is the share of
 //     its area that particles are near enough to; the rest counts nothing.
@@ -29,7 +30,9 @@ public:
     balancedFlux(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, dict, c),
           patch_(dict.get<word>("patch")),
-          file_(table("patchFlux.dat", {"Volume through patch " + patch_ + ", out positive"},
+          file_(table("patchFlux.dat",
+                      {"Volume through patch " + patch_ +
+                       ", out positive; of a cyclic patch along its separation"},
                       {"flux", "volume", "created", "deleted"}, 9))
     {
         List<word> names;

@@ -2,6 +2,7 @@
 // Steady plane Poiseuille flow as a case runs it: triangulated walls, cyclic ends, both couplings, both
 // representations of a wall
 #include "caseOnDisk.H"
+#include "relative.H"
 #include "triSurface.H"
 
 #include <cmath>
@@ -64,6 +65,10 @@ scalar steadyError(const word& coupling, const word& representation)
         CHECK(c.cloud.x[i][2] == 0);
         CHECK(c.cloud.Up[i][2] == 0);
     }
+    CHECK(c.walls->balance()[1].flux == relative(F * H * H * H / (12 * nu), 0.01));
+    CHECK(c.walls->balance()[1].volume > 0);
+    c.walls->printBalance(c.cloud);
+    CHECK(log.contains("\npatch flux [m2/s, along the separation]: ends 8."));
     return worst / (F * H * H / (8 * nu));
 }
 
