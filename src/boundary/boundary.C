@@ -119,6 +119,7 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
     for (const openFace& face : c.openFaces) face.keepAlongNormals(cloud);
     c.guard.rememberWalls(c.walls);
     const List<scalar> swept = c.walls.moveTo(t1);
+    c.checkLeavingWalls(t1, cloud.dx);
     label pushed = 0;
     if (!c.walls.empty())
     {

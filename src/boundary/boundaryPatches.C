@@ -60,6 +60,45 @@ void boundary::content::checkDrops(const dictionary& patches, const particleClou
     }
 }
 
+void boundary::content::findLeavingWalls(const dictionary& patches, scalar dx)
+{
+    for (const wallSet::body& b : walls.bodies())
+        for (label k = 0; k < label(cyclic.size()); ++k)
+        {
+            const wall& w = b.carrier(walls);
+            const vector n = cyclic[k].separation.normalized();
+            if (!w.motion.movesAlong(n)) continue;
+            const bool endless = w.plane && w.normal.cross(n).norm() > 1e-9;
+            List<vector> nodes = w.plane ? List<vector>{w.point} : b.surface->mesh()->nodes;
+            std::erase_if(nodes, [&](const vector& X) { return group.beyond(X) > 0.01 * dx; });
+            leaving.push_back({b.walls.front(), k, endless, std::move(nodes),
+                               patches.subDict(w.name).where("motion")});
+        }
+}
+
+// What moves over a cyclic plane does not come back at the other: there would be a gap, and the fluid would leave
+void boundary::content::checkLeavingWalls(scalar t, scalar dx) const
+{
+    for (const leavingWall& one : leaving)
+    {
+        const wall& w = walls.walls()[one.wall];
+        const cyclicPair& pair = cyclic[one.pair];
+        const bodyFrame frame = w.motion.frame(t);
+        const bool reaches =
+            one.endless || std::any_of(one.nodes.begin(), one.nodes.end(), [&](const vector& X) {
+                return pair.depth(frame.toSpace(X)) < 0.5 * dx;
+            });
+        if (reaches)
+            throw fatalError(
+                "Wall " + w.name + " moves across the cyclic patch " + pair.name +
+                    ", and at time " + str(t) +
+                    " s its surface reaches one of the planes: what moves over it does not come "
+                    "back at the other. If the surface slides or turns in itself, give the wall a "
+                    "'velocity' or 'rotation' instead of 'motion'; else keep it between the planes",
+                one.where);
+    }
+}
+
 faceMesh boundary::content::meshOf(const word& name, const dictionary& dict, const word& caseFolder,
                                    const particleCloud& cloud) const
 {
@@ -173,7 +212,9 @@ boundary::boundary(const word& caseFolder, const dictionary& patches, const part
     c.group.close(cloud, support);
     c.checkDrops(patches, cloud, support);
     c.walls.read(caseFolder, patches, c.group, cloud, support, t0);
+    c.findLeavingWalls(patches, cloud.dx);
     c.walls.setStep(0, 1);
+    c.checkLeavingWalls(t0, cloud.dx);
     c.wetted.find(c.walls, c.group, cloud);
     c.visibility.find(c.walls, support);
     c.mirror.find(c.walls, support);

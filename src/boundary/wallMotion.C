@@ -191,6 +191,12 @@ scalar wallMotion::leavesItself(const triSurface& s) const
     return most;
 }
 
+bool wallMotion::movesAlong(const vector& direction) const
+{
+    const vector n = direction.normalized();
+    return isAcross(displacement_.get(), n) || (turns() && turn_.axis.cross(n).norm() > 1e-9);
+}
+
 bool wallMotion::slidesWithin(const vector& normal) const
 {
     return !isAcross(slide_.get(), normal) &&

@@ -152,6 +152,36 @@ TEST_CASE("motions that cannot be")
                 "a plane has no end", 2);
 }
 
+TEST_CASE("walls that move over a cyclic plane are refused, at the start and as they get there")
+{
+    cube c;
+    const auto moving = [&](const triSurface& s, const word& motion) {
+        c.files.surface("base", s);
+        return c.with(
+            "x { type cyclic; point (0 0 0); separation (1 0 0); }"
+            "base { type wall; representation mirror;\n" +
+            motion + " }");
+    };
+    for (const word along : {"velocity (1 0 0.1);", "direction (-1 0 0); displacement 0;",
+                             "rotation { origin (0 0 0); axis (0 0 1); omega 1; }"})
+        CHECK_ERROR(moving(bottom, "motion { " + along + " }"), "give the wall a 'velocity'", 2);
+    moving(bottom, "velocity (1 0 0);");
+    moving(bottom, "motion { velocity (0 0.1 -0.1); }");
+    moving(bottom, "motion { rotation { origin (0 0.5 0); axis (1 0 0); omega 1; } }");
+    moving(bottom, "motion { velocity (0 0 0); }");
+    CHECK_ERROR(
+        moving(bottom,
+               "surface plane; point (0 0 0); normal (0 0 -1); motion { velocity (1 0 0); }"),
+        "across the cyclic patch x, and at time 0 s", 2);
+    moving(bottom, "surface plane; point (0 0 0); normal (0 0 -1); motion { velocity (0 1 -1); }");
+    // its image is nearer to the plane than it is to itself
+    boundary inside =
+        moving(sheet({0.1, 0, 0}, {0, 1, 0}, {0.6, 0, 0}), "motion { velocity (1 0 0); }");
+    const auto moveTo = [&](scalar t) { inside.setStep(0, t), inside.exchange(c.cloud, t); };
+    moveTo(0.2);
+    CHECK_ERROR(moveTo(0.27), "moves across the cyclic patch x, and at time 0.27 s", 2);
+}
+
 // Where it stands at the time of the cloud tells on which side of it the particles are
 TEST_CASE("a moving wall behind its particles")
 {
