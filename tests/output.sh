@@ -166,8 +166,12 @@ done
 newCase membrane bulging
 ramp=$(awk 'BEGIN { for (i = 0; i <= 50; ++i) { t = i*0.0025; printf "(%.6g %.8g)", t, 0.5*t*t } }')
 sed -i "s/displacement { .* } }/displacement table ($ramp); }/" constant/boundary
-echo "functions { e { type energy; } } endTime 0.125; deltaT 0.0025; writeInterval 50;" >> $control
+echo "functions { e { type energy; } f { type forces; patches (piston); } } endTime 0.125; deltaT 0.0025; writeInterval 50;" >> $control
 place; solved
+# The power of that state is the load's over the step that led there: 0.5 t^2 goes at t - dt/2
+paste <(tail -n 1 postProcessing/e/0/energy.dat) <(tail -n 1 postProcessing/f/0/force.dat | tr -d '()') |
+    awk '{ ratio = -$6/$13/0.12375; exit !(ratio > 0.9999 && ratio < 1.0001) }' ||
+    fail "power of the piston: $(tail -qn 1 postProcessing/e/0/energy.dat postProcessing/f/0/force.dat)"
 awk '!/^#/ { all = $2 + $3 + $7; work = $8; share = $3/all } END { exit !(share > 0.05 && (all/work - 1)^2 < 0.0025) }' \
     postProcessing/e/0/energy.dat || fail "what the piston puts in and where it is: $(tail -n 1 postProcessing/e/0/energy.dat)"
 # Poiseuille's flow from inlet to outlet: 12 mu U L/H^2 over U H of power comes in, and goes into friction, which 16
