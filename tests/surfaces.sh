@@ -84,6 +84,11 @@ accepted "a solid beside the fluid" "^block .* 1000 "
 echo "dx 1e-3; zones { l { phase fluid; $stl group LEFT_PART; } r { phase fluid; $stl group RIGHT; } }" > system/particleDict
 accepted "named solids" "^l .* 1000 " "^r .* 500 "
 
+digits() { # of the particles made
+    for file in 0/particles constant/wallParticles; do
+        for set in Points PointData/zone; do h5dump -m %.17g -y -w 1 -d "/VTKHDF/$set" $file.hdf 2>/dev/null | sed 1d; done
+    done
+}
 # ---- facets in any order: the same particles, bit for bit --------------------------------------------------------------
 echo 'SetFactory("OpenCASCADE"); Sphere(1) = {0.3, 0, 0, 6}; Cylinder(2) = {0, 0, 0, 0, 0, 14, 3};
 BooleanUnion { Volume{1}; Delete; }{ Volume{2}; Delete; }' > flask.geo
@@ -94,9 +99,7 @@ for placement in lattice bodyFitted; do
         { [ $seed = 0 ] && cat flask || shuffled $seed < flask; } | stl part > constant/part.stl
         dict "$stl"; sed -i "s/lattice/$placement/" system/particleDict
         accepted "order $seed" "^water "
-        for file in 0/particles constant/wallParticles; do
-            for set in Points PointData/zone; do h5dump -m %.17g -y -w 1 -d "/VTKHDF/$set" $file.hdf 2>/dev/null | sed 1d; done
-        done > "particles.$seed"
+        digits > "particles.$seed"
     done
     [ "$(wc -l < particles.0)" -gt 3000 ] || fail "$placement: no particles"
     cmp -s particles.0 particles.1 && cmp -s particles.0 particles.2 || fail "$placement: the order of facets matters"
@@ -124,7 +127,7 @@ ends() = Surface In BoundingBox {-6, -6, -0.1, 6, 6, 0.1}; ends() += Surface In 
 dict "$stl"
 refused "open ends" "hole at (" "0.016) m, 0.01 m = 10 dx across" "ask for 'capping'"
 dict "$stl capping automatic;"
-refused "automatic caps without a patch" "belongs to patch cap0, which constant/boundary lacks" "capped      cap1 at ("
+refused "automatic caps without a patch" "belongs to patch cap0, which constant/boundary lacks" "capped      cap1 at (0 0 0.016)"
 dict "$stl capping { in { near (0 0 0); } out { near (0 0 0.001); } }"
 refused "two caps at one end" "The caps in and out are nearest to the same open end"
 dict "$stl capping { in { naer (0 0 0); } }"
@@ -166,4 +169,22 @@ sed -i 's/lattice/bodyFitted/' system/particleDict
 accepted "a fork" "capped *right at \(0.00[78][0-9.]* .*normal \(0.496139 .* 0.868243\)" "capped *trunk"
 volumeIs -1 0.1 "$exact" "a fork"
 steps "a fork"
+
+# a tube of 48 sides, cut at 45 degrees
+awk 'BEGIN { n = 48; m = 12
+    for (i = 0; i < n; ++i) for (j = 0; j < m; ++j) {
+        a = at(i, j); b = at(i + 1, j); c = at(i + 1, j + 1); d = at(i, j + 1); print a, b, c; print a, c, d } }
+    function at(i, j,   x) { x = 5*cos(8*atan2(1, 1)*(i%n)/n)
+        return sprintf("%.12g %.12g %.12g", x, 5*sin(8*atan2(1, 1)*(i%n)/n), (20 + x)*j/m) }' > oblique
+echo "walls { type wall; } in { type open; p 20; } out { type open; p 0; }" > constant/boundary
+dict "$stl capping { in { near (0 0 0); } out { near (0 0 0.02); } }"
+sed -i 's/lattice/bodyFitted/' system/particleDict
+for sense in given turned shuffled; do
+    case $sense in given) cat oblique ;; turned) awk '{ print $7, $8, $9, $4, $5, $6, $1, $2, $3 }' oblique ;; shuffled) shuffled 6 < oblique ;; esac |
+        stl part > constant/part.stl
+    accepted "an oblique end, $sense" "^water "
+    digits > "particles.$sense"
+    cmp -s particles.given "particles.$sense" || fail "the sense of facets matters where ends are capped: $sense"
+done
+volumeIs -0.001 0.001 1.566314e-6 "an oblique end"    # 24 sin(2 pi/48) 5^2 20
 [ $failures = 0 ]

@@ -191,37 +191,24 @@ void triSurface::weld(scalar tolerance)
 void triSurface::keepUsed()
 {
     List<label> newNode(nodes.size(), -1);
-    List<vector> used;
+    for (const triangle& f : triangles)
+        for (const label n : f) newNode[n] = 0;
+    label used = 0;
+    for (size_t n = 0; n < nodes.size(); ++n)
+        if (newNode[n] == 0) nodes[used] = nodes[n], newNode[n] = used++;
+    nodes.resize(used);
     for (triangle& f : triangles)
-        for (label& n : f)
-        {
-            if (newNode[n] < 0) newNode[n] = label(used.size()), used.push_back(nodes[n]);
-            n = newNode[n];
-        }
-    nodes = std::move(used);
+        for (label& n : f) n = newNode[n];
 }
 
 triSurface triSurface::subset(const std::function<bool(label)>& keep) const
 {
-    triSurface part;
-    part.patchNames = patchNames;
-    List<label> newNode(nodes.size(), -1);
+    triSurface part = *this;
+    label kept = 0;
     for (label t = 0; t < size(); ++t)
-    {
-        if (!keep(t)) continue;
-        triangle f = triangles[t];
-        for (label& n : f)
-        {
-            if (newNode[n] < 0)
-            {
-                newNode[n] = label(part.nodes.size());
-                part.nodes.push_back(nodes[n]);
-            }
-            n = newNode[n];
-        }
-        part.triangles.push_back(f);
-        part.patch.push_back(patch[t]);
-    }
+        if (keep(t)) part.triangles[kept] = triangles[t], part.patch[kept] = patch[t], ++kept;
+    part.triangles.resize(kept), part.patch.resize(kept);
+    part.keepUsed();
     return part;
 }
 

@@ -3,6 +3,7 @@
 
 #include "surfaceTopology.H"
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace ispf
@@ -86,11 +87,17 @@ List<boundaryLoop> boundaryLoops(const triSurface& s)
         path.resize(from + 1);
         if (from == 0) path.clear(), onPath.clear();
     }
-    std::sort(loops.begin(), loops.end(), [](const boundaryLoop& a, const boundaryLoop& b) {
-        if (a.size != b.size) return a.size > b.size;
-        return std::lexicographical_compare(a.centre.begin(), a.centre.end(), b.centre.begin(),
-                                            b.centre.end());
-    });
+    // the largest first, those of one size by place; last digits do not count
+    scalar largest = 0;
+    for (const boundaryLoop& loop : loops) largest = std::max(largest, loop.size);
+    const auto rank = [&](const boundaryLoop& loop) {
+        const auto rounded = [&](scalar x) { return std::round(1e6 * x / largest); };
+        const vector& c = loop.centre;
+        return std::array{-rounded(loop.size), rounded(c[0]), rounded(c[1]), rounded(c[2])};
+    };
+    std::stable_sort(
+        loops.begin(), loops.end(),
+        [&](const boundaryLoop& a, const boundaryLoop& b) { return rank(a) < rank(b); });
     return loops;
 }
 
