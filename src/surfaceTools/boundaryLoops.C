@@ -95,9 +95,9 @@ List<boundaryLoop> boundaryLoops(const triSurface& s)
         const vector& c = loop.centre;
         return std::array{-rounded(loop.size), rounded(c[0]), rounded(c[1]), rounded(c[2])};
     };
-    std::stable_sort(
-        loops.begin(), loops.end(),
-        [&](const boundaryLoop& a, const boundaryLoop& b) { return rank(a) < rank(b); });
+    std::stable_sort(loops.begin(), loops.end(), [&](const boundaryLoop& a, const boundaryLoop& b) {
+        return rank(a) < rank(b);
+    });
     return loops;
 }
 
