@@ -134,8 +134,8 @@ private:
 class ramp : public Function1
 {
 public:
-    explicit ramp(const dictionary& d)
-        : type_(d.get<word>("type")),
+    ramp(const word& type, const dictionary& d)
+        : type_(type),
           start_(d.getOrDefault<scalar>("start", 0, dims::time)),
           duration_(d.getInRange("duration", 1e-30, 1e30, dims::time))
     {
@@ -210,10 +210,9 @@ std::unique_ptr<Function1Of<T>> named(const word& type)
 }
 
 template <class T>
-std::unique_ptr<Function1Of<T>> fromDict(const dictionary& d, const word& caseFolder,
-                                         const dimensionSet& wanted)
+std::unique_ptr<Function1Of<T>> fromDict(const word& type, const dictionary& d,
+                                         const word& caseFolder, const dimensionSet& wanted)
 {
-    const word type = d.choose("type", types<T>());
     if (auto f = named<T>(type)) return f;
     if (type == "constant" || type == "uniform")
         return std::make_unique<constant<T>>(d.get<T>("value", wanted));
@@ -225,7 +224,7 @@ std::unique_ptr<Function1Of<T>> fromDict(const dictionary& d, const word& caseFo
     if (type == "polynomial") return powers<T>(d.tokenList("coeffs"), d.where("coeffs"));
     if (type == "scale") return std::make_unique<scaled<T>>(d, caseFolder, wanted);
     if constexpr (std::is_same_v<T, scalar>)
-        if (type.find("Ramp") != word::npos) return std::make_unique<ramp>(d);
+        if (type.find("Ramp") != word::npos) return std::make_unique<ramp>(type, d);
     return std::make_unique<wave<T>>(d, caseFolder, wanted, type == "square");
 }
 
@@ -249,7 +248,11 @@ std::unique_ptr<Function1Of<T>> Function1Of<T>::New(const word& key, const dicti
                                                     const word& caseFolder,
                                                     const dimensionSet& wanted)
 {
-    if (dict.isDict(key)) return fromDict<T>(dict.subDict(key), caseFolder, wanted);
+    if (dict.isDict(key))
+    {
+        const dictionary& d = dict.subDict(key);
+        return fromDict<T>(d.choose("type", types<T>()), d, caseFolder, wanted);
+    }
 
     constexpr bool ofVector = std::is_same_v<T, vector>;
     List<token> tokens = dict.tokenList(key);
@@ -257,6 +260,8 @@ std::unique_ptr<Function1Of<T>> Function1Of<T>::New(const word& key, const dicti
     const word type = tokens.empty() ? "" : tokens[0].text;
     if (!tokens.empty()) tokens.erase(tokens.begin());
     if (auto f = named<T>(type); f && tokens.empty()) return f;
+    if (const word name = key + "Coeffs"; tokens.empty() && dict.isDict(name))
+        return fromDict<T>(dict.choose(key, types<T>()), dict.subDict(name), caseFolder, wanted);
     if (type == "table")
         return std::make_unique<Function1Table<T>>(inlineRows<T>(tokens, dict.where(key), &wanted),
                                                    "clamp", dict.where(key));

@@ -198,6 +198,17 @@ TEST_CASE("units: behind a number, of a table, of the columns of a csv file")
     CHECK_ERROR(inUnits(csv + "flow); }", dims::flowRate, c.path), "Unknown unit 'mn'", 1);
 }
 
+TEST_CASE("OpenFOAM's older form: the word, and its entries in a dictionary beside it")
+{
+    CHECK(made("f sine; fCoeffs { frequency 1; amplitude 2; level 3; }")->value(0.25) ==
+          relative(5));
+    CHECK(made("f halfCosineRamp; fCoeffs { duration 2; }")->value(1) == relative(0.5));
+    CHECK(made("f table; fCoeffs { values ((0 1) (2 3)); }")->value(1) == relative(2));
+    CHECK_ERROR(made("f snie; fCoeffs { frequency 1; amplitude 2; }"), "Unknown f 'snie'", 1);
+    CHECK_ERROR(made("f sine;\nfCoeffs { amplitude 2; }"), "'frequency' is missing", 2);
+    CHECK_ERROR(made("f sine; gCoeffs { frequency 1; amplitude 2; }"), "is a function of time", 1);
+}
+
 TEST_CASE("ramps")
 {
     const auto at = [](const word& type, scalar t) {
