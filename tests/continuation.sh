@@ -61,4 +61,31 @@ for template in piston membrane; do
     same threads1 threads2 "$template: one thread and two"
     same threads2 0.004 "$template: run twice"
 done
+# Functions of time are asked for the run's own times alone: tables that end with it are enough, in steps that its end
+# cuts short, and from a start that is not 0
+newCase piston range
+place
+mv 0 5
+range='type table; outOfBounds error; values'
+echo "walls { type wall; }
+piston { type wall; point (0 0 0); normal (0 -1 0); velocity { $range ((5 (0 0 0)) (5.05 (1e-3 0 0))); }
+    motion { direction (0 1 0); displacement { $range ((5 0) (5.05 1e-3)); } } }
+top { type open; p { $range ((5 0) (5.05 1)); } surface plane; point (0 0.2 0); normal (0 1 0); }" > constant/boundary
+echo "value { $range ((5 (0 0 0)) (5.05 (0 -1 0))); }" > constant/g
+echo 'startTime 5; endTime 5.05; deltaT 0.02; writeControl adjustableRunTime; writeInterval 0.02;
+functions { through { type patchFlux; patch top; } }' >> system/controlDict
+for coupling in monolithic projection; do
+    setEntry system/sphSolution coupling $coupling
+    cp -r . ../$coupling.range; cd ../$coupling.range || exit 1
+    solved
+    ispfPostProcess > log.post 2>&1 || fail "$PWD: $(tail -n 5 log.post)"
+    sed -i 's/outOfBounds error/outOfBounds warn/' constant/boundary constant/g; rm -r 5.0*
+    solved
+    grep -q "outside the table" log && fail "$PWD: asked for times that are not the run's: $(grep -B 3 outside log)"
+    sed -i 's/outOfBounds warn/outOfBounds error/' constant/boundary constant/g
+    sed -i 's/endTime 5.05/endTime 5.06/' system/controlDict
+    solve && fail "$PWD: beyond the table"
+    grep -q "Time 5.06 lies outside the table, which spans 5 to 5.05" log || fail "$PWD: $(tail -n 5 log)"
+    cd ../range || exit 1
+done
 [ $failures = 0 ]

@@ -213,7 +213,6 @@ boundary::boundary(const word& caseFolder, const dictionary& patches, const part
     c.checkDrops(patches, cloud, support);
     c.walls.read(caseFolder, patches, c.group, cloud, support, t0);
     c.findLeavingWalls(patches, cloud.dx);
-    c.walls.setStep(0, 1);
     c.checkLeavingWalls(t0, cloud.dx);
     c.wetted.find(c.walls, c.group, cloud);
     c.visibility.find(c.walls, support);

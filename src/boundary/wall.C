@@ -60,7 +60,7 @@ void wall::setStep(scalar t0, scalar t1)
 
 void wall::moveTo(scalar t)
 {
-    frame = motion.frame(t), standsAt = t;
+    frame = motion.frame(t);
 }
 
 }  // namespace ispf

@@ -26,7 +26,8 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
     makeBodies(caseFolder, patches, group, support + cloud.dx);
     for (wall& w : walls_) w.moveTo(t0);
     checkSides(patches, cloud);
-    for (wall& w : walls_) w.moveTo(0);
+    // as drawn whatever the time, so that what is found of them is the same after every restart
+    for (wall& w : walls_) w.frame = bodyFrame();
     readRigid(caseFolder, patches);
     // what lies beyond symmetry planes and cyclic sides comes again as an image
     for (wall& w : walls_)

@@ -170,6 +170,12 @@ void fsiCase::readStructure()
     structure = structureModel::New(properties, ref);
 }
 
+scalar fsiCase::stepEnd() const
+{
+    const scalar now = time.value(), end = now + time.deltaT();
+    return time.endTime() > now ? std::min(end, time.endTime()) : end;
+}
+
 // Neighbours in memory are neighbours in space, near enough for ten steps.  Counted with the state, so that
 // a run continued from it keeps the order
 void fsiCase::sortParticles()

@@ -118,7 +118,7 @@ scalar monolithic::rounding(scalar dt, const List<scalar>& z) const
 // No limit of stability; where the step is adjusted, the fluid's motion rules it for accuracy
 couplingScheme::stepLimit monolithic::limit() const
 {
-    c_.walls->setStep(c_.time.value(), c_.time.value() + c_.time.deltaT());
+    c_.walls->setStep(c_.time.value(), c_.stepEnd());
     const scalar u = velocityScale();
     if (!c_.time.adjustTimeStep() || u == 0) return {1e30, "no"};
     return {0.4 * c_.kernel->h() / u, "CFL"};

@@ -166,7 +166,7 @@ bool functionObjectList::due(trigger& t) const
 void functionObjectList::placeWalls()
 {
     const scalar now = case_.time.value(), dt = case_.time.deltaT();
-    if (case_.time.timeIndex() == 0) case_.walls->setStep(now, now + dt);
+    if (case_.time.timeIndex() == 0) case_.walls->setStep(now, case_.stepEnd());
     else case_.walls->setStepBehind(now - dt, now);
 }
 
