@@ -219,8 +219,7 @@ std::unique_ptr<Function1Of<T>> fromDict(const word& type, const dictionary& d,
     if (type == "table") return tabulated(inUnits(rowsIn<T>("values", d), d, wanted), d);
     if (type == "tableFile")
         return tabulated(inUnits(listFileRows<T>(d, caseFolder), d, wanted), d);
-    if (type == "csvFile")
-        return tabulated(inUnits(csvFileRows<T>(d, caseFolder, wanted), d, wanted), d);
+    if (type == "csvFile") return tabulated(csvFileRows<T>(d, caseFolder, wanted), d);
     if (type == "polynomial") return powers<T>(d.tokenList("coeffs"), d.where("coeffs"));
     if (type == "scale") return std::make_unique<scaled<T>>(d, caseFolder, wanted);
     if constexpr (std::is_same_v<T, scalar>)

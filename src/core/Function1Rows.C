@@ -5,6 +5,7 @@
 #include "fileNames.H"
 #include "valueReader.H"
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace ispf
@@ -94,6 +95,27 @@ word trimmed(const word& s)
     return b == word::npos ? "" : s.substr(b, s.find_last_not_of(blank) - b + 1);
 }
 
+// To SI, by the entry units ([ms] [mm])
+struct rowUnits
+{
+    bool given = false;
+    scalar time = 1, value = 1;
+
+    rowUnits(const dictionary& dict, const dimensionSet& wanted) : given(dict.found("units"))
+    {
+        if (!given) return;
+        valueReader in(dict.tokenList("units"), "units", dict.where("units"));
+        const word form = "two units, ([s] [m])";
+        in.expect('(', form);
+        if (!in.at('[')) in.fail(form);
+        time = in.readUnit(dims::time);
+        if (!in.at('[')) in.fail(form);
+        value = in.readUnit(wanted);
+        in.expect(')', form);
+        in.expectEnd();
+    }
+};
+
 class csvReader
 {
 public:
@@ -101,6 +123,7 @@ public:
         : path_(path),
           wanted_(wanted),
           dict_(d),
+          units_(d, wanted),
           separator_(d.getOrDefault<word>("separator", ",")),
           merge_(d.getOrDefault<bool>("mergeSeparators", false)),
           nHeader_(d.getOrDefault<label>("nHeaderLine", 0))
@@ -134,7 +157,8 @@ public:
             List<scalar> v;
             for (const size_t c : columns) v.push_back(cell(cells, c));
             for (size_t k = 0; k <= n && rows.empty(); ++k)
-                units[k] = factor(columns[k], k == 0 ? dims::time : wanted_) * (k == 0 ? 1 : scale);
+                units[k] = k == 0 ? factor(columns[k], dims::time, units_.time)
+                                  : factor(columns[k], wanted_, units_.value) * scale;
             for (size_t k = 0; k <= n; ++k) v[k] *= units[k];
             Function1Row<T>& r = rows.emplace_back();
             r.t = v[0], r.where = here();
@@ -224,16 +248,20 @@ private:
         }
     }
 
-    // To SI
-    scalar factor(size_t column, const dimensionSet& wanted) const
+    // To SI; `given`: by the entry units.  The header says it already, if it says it
+    scalar factor(size_t column, const dimensionSet& wanted, scalar given) const
     {
-        if (column >= header_.units.size() || header_.units[column].empty()) return 1;
+        if (column >= header_.units.size() || header_.units[column].empty()) return given;
         const unit u = parsedUnit(header_.units[column], header_.where);
         if (wanted.known && !(u.dimensions == wanted))
             throw fatalError("Column '" + header_.names[column] + "' is in [" +
                                  header_.units[column] + "], of the dimensions " +
                                  u.dimensions.text() + ",\nbut it must have " + wanted.text() + ".",
                              header_.where);
+        if (units_.given && std::abs(u.factor - given) > 1e-9 * std::abs(given))
+            dict_.fail("units", "Column '" + header_.names[column] + "' is in [" +
+                                    header_.units[column] + "] by the header of " + path_ +
+                                    ", and in another unit by this entry. Leave one of them away");
         return u.factor;
     }
 
@@ -271,6 +299,7 @@ private:
     word path_;
     dimensionSet wanted_;
     const dictionary& dict_;
+    rowUnits units_;
     word separator_;
     bool merge_;
     label nHeader_;
@@ -306,17 +335,8 @@ template <class T>
 List<Function1Row<T>> inUnits(List<Function1Row<T>> rows, const dictionary& dict,
                               const dimensionSet& wanted)
 {
-    if (!dict.found("units")) return rows;
-    valueReader in(dict.tokenList("units"), "units", dict.where("units"));
-    const word form = "two units, ([s] [m])";
-    in.expect('(', form);
-    if (!in.at('[')) in.fail(form);
-    const scalar t = in.readUnit(dims::time);
-    if (!in.at('[')) in.fail(form);
-    const scalar v = in.readUnit(wanted);
-    in.expect(')', form);
-    in.expectEnd();
-    for (Function1Row<T>& r : rows) r.t *= t, r.value *= v;
+    const rowUnits units(dict, wanted);
+    for (Function1Row<T>& r : rows) r.t *= units.time, r.value *= units.value;
     return rows;
 }
 

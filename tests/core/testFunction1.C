@@ -56,6 +56,8 @@ TEST_CASE("outOfBounds")
     CHECK(with("warn")->value(0) == 0);
     CHECK_ERROR(with("error")->value(3.5), "spans 1 to 3", 1);
     CHECK(with("error")->value(3) == 4);
+    CHECK(with("error")->value(3 + 1e-15) == 4);  // the end of the last step
+    CHECK(with("error")->value(1 - 1e-15) == 0);
     const auto f = with("repeat");
     CHECK(f->value(3) == 4);
     CHECK(f->value(4) == relative(2));
@@ -194,6 +196,17 @@ TEST_CASE("units: behind a number, of a table, of the columns of a csv file")
     CHECK(inUnits(csv + "flow); }", dims::flowRate, c.path)->value(0.25) == relative(0.5e-6));
     CHECK(inUnits(csv + "p); }", dims::pressure, c.path)->value(0.5) == relative(15998.6865));
     CHECK_ERROR(inUnits(csv + "p); }", dims::flowRate, c.path), "Column 'p' is in [mmHg]", 1);
+    // said twice it holds once
+    CHECK(inUnits(csv + "p); units ([ms] [mmHg]); }", dims::pressure, c.path)->value(0.5) ==
+          relative(15998.6865));
+    CHECK_ERROR(inUnits(csv + "p); units ([s] [mmHg]); }", dims::pressure, c.path),
+                "Column 'time' is in [ms] by the header of", 1);
+    CHECK_ERROR(inUnits(csv + "p); units ([ms] [Pa]); }", dims::pressure, c.path),
+                "Column 'p' is in [mmHg] by the header of", 1);
+    c.write("b.csv", "time, p [mmHg]\n0, 80\n500, 120\n");
+    CHECK(inUnits("f { type csvFile; file \"b.csv\"; nHeaderLine 1; units ([ms] [mmHg]); }",
+                  dims::pressure, c.path)
+              ->value(0.5) == relative(15998.6865));
     c.write("a.csv", "time [ms], flow [ml/mn]\n0, 0\n");
     CHECK_ERROR(inUnits(csv + "flow); }", dims::flowRate, c.path), "Unknown unit 'mn'", 1);
 }
