@@ -55,6 +55,7 @@ void fsiCase::readBoundary()
     const auto rest = cloud.vectors.find("x0");
     walls->clampSolids(cloud, rest == cloud.vectors.end() ? List<vec4>() : rest->second, patches);
     restoreBalance(cloud, *walls);
+    walls->setStep(time.value(), stepEnd());
 }
 
 void fsiCase::read()
