@@ -236,6 +236,26 @@ echo "startFrom startTime; startTime 0.25;" >> $control
 refused "There are no particles of time 0.25: .*/0.25/particles.hdf is missing"
 says "Times with particles: 0 0.1 0.2 0.3; startFrom and startTime"
 
+# ---- a file of the last state that is gone is missed: it is not gone on from an earlier one over it ------------------
+rm -rf ../parts; cp -r ../purge ../parts; cd ../parts || exit 1
+echo "endTime 0.18;" >> $control
+for lost in uniform/particles U positions; do
+    mv 0.16/$lost lost; sums=$(cksum 0.16/* 2> /dev/null)
+    refused "/0.16 is incomplete: particles.vtp is there, but neither particles.hdf nor uniform/particles|/0.16/$lost.* is missing"
+    [ "$sums" = "$(cksum 0.16/* 2> /dev/null)" ] || fail "without $lost: 0.16 has changed"
+    mv lost 0.16/$lost
+done
+sed -i.sound 's/^deltaT .*/deltaT 0.02;/' 0.16/uniform/time
+refused "/0.16/uniform/time was damaged, or edited"
+sed -i '/^checksum/d' 0.16/uniform/time; mkdir 0.3; touch 0.3/picture.png; mkdir 0.4; touch 0.4/positions 0.4/U.tmp
+solved
+says "/0.3 holds no particles .but picture.png.: it is passed over"
+says "/0.4 was being written when its run was ended"
+[ "$(grep -m 1 '^Time = ' log)" = "Time = 0.17" ] || fail "begins with $(grep -m 1 '^Time = ' log)"
+cd ../hdf5 && sed -i '/^startFrom startTime; startTime 0.25/d' $control && mv 0.3/particles.hdf 0.3/kept.hdf || exit 1
+refused "/0.3 is incomplete: uniform/time is there, but neither particles.hdf"
+mv 0.3/kept.hdf 0.3/particles.hdf
+
 # ---- a full disk, folders that cannot be made: what was written stays ---------------------------------
 cd ../purge || exit 1
 echo "purgeWrite 0; writeFormat hdf5; endTime 0.18;" >> $control

@@ -2,10 +2,12 @@
 // controlDict, the time folders and uniform/time.
 #include "Time.H"
 
+#include "checksum.H"
 #include "fileNames.H"
 #include "token.H"
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <ostream>
 
@@ -34,6 +36,67 @@ bool isNameOf(const word& name, scalar t)
         for (const char* form : {"%.*g", "%.*f", "%.*e"})
             if (formattedTime(form, precision, t) == name) return true;
     return false;
+}
+
+// Of uniform/time
+globalId clockChecksum(scalar value, label index, scalar deltaT)
+{
+    checksum sum;
+    sum.add(List<scalar>{value, scalar(index), deltaT});
+    return sum.value();
+}
+
+// Neither index nor deltaT could be told wrong otherwise.  Files of earlier versions have none
+void checkClock(const dictionary& d, scalar value, label index, scalar deltaT)
+{
+    if (d.found("checksum") &&
+        d.get<word>("checksum") != std::to_string(clockChecksum(value, index, deltaT)))
+        d.fail("checksum", "It does not fit value, index and deltaT: " + d.path() +
+                               " was damaged, or edited. If you have edited it, take the entry "
+                               "'checksum' out of it; without the file the clock is set from the "
+                               "particles.");
+}
+
+// What is left in a time folder without a state
+struct leftOver
+{
+    List<word> state, foreign;  // files that only a state has, and others
+    bool interrupted = false;   // a file was being written when its program was ended
+
+    explicit leftOver(const word& folder)
+    {
+        for (const word& sub : {word(), word("uniform/")})
+        {
+            std::error_code error;
+            for (const auto& item : std::filesystem::directory_iterator(folder + "/" + sub, error))
+            {
+                const word name = sub + item.path().filename().string();
+                const bool ofState =
+                    name == "uniform/time" || name == "positions" || name == "particles.vtp";
+                if (item.path().extension() == ".tmp") interrupted = true;
+                else if (name != "uniform") (ofState ? state : foreign).push_back(name);
+            }
+        }
+        std::sort(state.begin(), state.end()), std::sort(foreign.begin(), foreign.end());
+    }
+};
+
+// A newer folder is not passed over in silence: the run would write over what its owner thinks is there
+void passOver(const word& folder)
+{
+    const leftOver left(folder);
+    if (left.interrupted)
+        return warning(folder +
+                       " was being written when its run was ended: an earlier time is "
+                       "taken");
+    if (!left.state.empty())
+        throw fatalError("The state in " + folder + " is incomplete: " + left.state.front() +
+                         " is there, but neither particles.hdf nor uniform/particles. Put it back; "
+                         "or remove the folder to continue from an earlier time, or choose one by "
+                         "'startFrom startTime' and 'startTime' in system/controlDict");
+    if (!left.foreign.empty())
+        warning(folder + " holds no particles (but " + left.foreign.front() +
+                "): it is passed over");
 }
 
 }  // namespace
@@ -115,7 +178,8 @@ scalar Time::chosenStart() const
     const scalar otherwise = given ? control_.get<scalar>("startTime", dims::time) : 0;
     List<folderOfTime> candidates = folders();
     if (from == "firstTime") return candidates.empty() ? otherwise : candidates.front().t;
-    while (!candidates.empty() && !hasState(candidates.back().name)) candidates.pop_back();
+    for (; !candidates.empty() && !hasState(candidates.back().name); candidates.pop_back())
+        passOver(case_ + "/" + candidates.back().name);
     return candidates.empty() ? otherwise : candidates.back().t;
 }
 
@@ -149,8 +213,11 @@ void Time::readState()
 {
     const dictionary d = dictionary::fromFileIfPresent(folder() + "/uniform/time");
     hasClock_ = !d.empty();
-    if (hasClock_)
-        recall(d.get<scalar>("value"), d.get<label>("index"), d.get<scalar>("deltaT"), d.path());
+    if (!hasClock_) return;
+    const auto value = d.get<scalar>("value"), deltaT = d.get<scalar>("deltaT");
+    const label index = d.get<label>("index");
+    checkClock(d, value, index, deltaT);
+    recall(value, index, deltaT, d.path());
 }
 
 void Time::recall(scalar value, label index, scalar deltaT, const word& source)
@@ -175,7 +242,8 @@ void Time::writeState() const
               "    class       dictionary;\n    location    \"" +
                   name + "/uniform\";\n    object      time;\n}\n\nvalue       " + str(value_, 17) +
                   ";\nname        \"" + name + "\";\nindex       " + std::to_string(index_) +
-                  ";\ndeltaT      " + str(deltaT_, 17) + ";\n");
+                  ";\ndeltaT      " + str(deltaT_, 17) + ";\nchecksum    " +
+                  std::to_string(clockChecksum(value_, index_, deltaT_)) + ";\n");
 }
 
 word Time::timeName(scalar t) const

@@ -78,8 +78,10 @@ bool isKnown(const word& attribute)
     List<word> present;
     for (const Time::folderOfTime& f : time.folders())
         if (time.hasState(f.name)) present.push_back(f.name);
+    const word missing =
+        fs::exists(time.folder() + "/positions") ? "/uniform/particles" : "/particles.hdf";
     throw fatalError("There are no particles of time " + time.timeName() + ": " + time.folder() +
-                     "/particles.hdf is missing.\n" +
+                     missing + " is missing.\n" +
                      (present.empty() ? "generateParticles makes those of time 0."
                                       : "Times with particles: " + join(present) +
                                             "; startFrom and startTime in system/controlDict "
@@ -252,9 +254,9 @@ void writeCloud(Time& time, const particleCloud& cloud, const boundary& walls)
     cloud.checkFinite(time.value());
     const particleTable table = tableOf(time, cloud, walls);
 
-    time.writeState();  // first: with its particles the folder is one to continue from
     writeState(table, time.folder(), time.writesAscii() ? stateFormat::ascii : stateFormat::hdf5,
                time.writePrecision() ? time.writePrecision() : 6);
+    time.writeState();  // last: where it is the particles are, unless somebody has taken them away
 
     const List<word> purge = time.toPurge();
     for (const word file : {"particles.hdf", "particles.vtp"})  // before their files go

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "particleTableCheck.H"
 
-#include <bit>
+#include "checksum.H"
+
 #include <cstdio>
 #include <set>
 
@@ -10,48 +11,6 @@ namespace ispf
 
 namespace
 {
-
-// Over names and values in the order of the table, eight bytes at a time.  The rotation brings the
-// high bits down again: with the multiplication alone, changes of sign and exponent can cancel.
-class checksum
-{
-public:
-    template <class Columns>
-    void add(const Columns& list)
-    {
-        for (const auto& [name, values] : list)
-        {
-            add(name);
-            add(values);
-        }
-    }
-    void add(const word& text)
-    {
-        mix(text.size());
-        for (const unsigned char c : text) mix(c);
-    }
-    void add(const List<scalar>& values)
-    {
-        mix(values.size());
-        for (const scalar v : values) mix(std::bit_cast<std::uint64_t>(v));
-    }
-    void add(const List<vector>& values)
-    {
-        mix(values.size());
-        for (const vector& v : values)
-            for (int k = 0; k < 3; ++k) mix(std::bit_cast<std::uint64_t>(v[k]));
-    }
-    void add(const List<globalId>& values)
-    {
-        mix(values.size());
-        for (const globalId v : values) mix(std::uint64_t(v));
-    }
-    globalId value() const { return globalId(state_); }
-
-private:
-    void mix(std::uint64_t bits) { state_ = std::rotl(state_ ^ bits, 29) * 0x9e3779b97f4a7c15u; }
-    std::uint64_t state_ = 0xcbf29ce484222325u;
-};
 
 word position(const vector& x)
 {

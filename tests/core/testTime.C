@@ -2,6 +2,7 @@
 #include "Time.H"
 #include "capturedErrors.H"
 #include "errorOf.H"
+#include "fileNames.H"
 #include "temporaryFolder.H"
 #include "relative.H"
 
@@ -197,7 +198,9 @@ TEST_CASE("startFrom: only folders that hold a state count as latest")
     c.write("10/uniform/other", "x");
     c.write("1.5/uniform/time", "value 1.6; index 3; deltaT 0.1;");
     c.write("1.5/particles.hdf", "x");
-    c.write("3/uniform/time", "value 3; index 3; deltaT 0.1;");  // killed before it was complete
+    c.write("3/uniform/time", "value 3; index 3; deltaT 0.1;");
+    CHECK_ERROR(c.time(), "uniform/time is there, but neither particles.hdf nor", 0);
+    c.write("3/particles.hdf.tmp", "x");  // killed before it was complete
     CHECK(c.time().value() == 2);
     List<word> folders;
     for (const Time::folderOfTime& f : c.time().folders()) folders.push_back(f.name);
@@ -217,6 +220,32 @@ TEST_CASE("startFrom: only folders that hold a state count as latest")
     CHECK(c.time().value() == 0);
     c.write("system/controlDict", control + "startTime;");
     CHECK(c.time().value() == 0.5);
+}
+
+TEST_CASE("uniform/time: what is changed in it is told")
+{
+    const testCase c("deltaT 0.1; endTime 7; writeControl none; adjustTimeStep yes;");
+    Time t = c.time();
+    t.setDeltaT(0.07);
+    ++t;
+    t.writeState();
+    c.write("0.07/particles.hdf", "x");
+    CHECK(c.time().timeIndex() == 1);
+    CHECK(c.time().deltaT() == 0.07);
+    const word file = c.path + "/0.07/uniform/time", written = readText(file);
+    for (const auto& [from, to] : {std::pair("0.07000", "0.07001"), {"index       1", "index 2"}})
+    {
+        CAPTURE(from);
+        word changed = written;
+        changed.replace(changed.rfind(from), word(from).size(), to);
+        c.write("0.07/uniform/time", changed);
+        CHECK_ERROR(c.time(), "0.07/uniform/time was damaged, or edited", 14);
+        c.write("0.07/uniform/time", changed.substr(0, changed.find("checksum")));
+        c.time();
+    }
+    c.write("0.07/positions", "x");
+    std::filesystem::remove(c.path + "/0.07/particles.hdf");
+    CHECK_ERROR(c.time(), "0.07 is incomplete: positions is there", 0);
 }
 
 TEST_CASE("stopAt, and changes to controlDict while running")
