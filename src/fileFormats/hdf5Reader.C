@@ -2,7 +2,11 @@
 #include "hdf5File.H"
 #include "hdf5Support.H"
 
+#include <fcntl.h>
+#include <unistd.h>
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 
 namespace ispf
@@ -21,6 +25,10 @@ size_t sizeOfFile(const word& path)
 
 hdf5Id openFile(const word& path)
 {
+    // HDF5 does not tell what may not be read from what cannot
+    if (const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC); file < 0)
+        throw fatalError("Cannot read '" + path + "': " + std::strerror(errno) + ".");
+    else ::close(file);
     silenceHdf5();
     const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (id < 0)
