@@ -118,7 +118,29 @@ refused "checksum|damaged" "dd if=/dev/zero of=0.02/particles.hdf bs=1 count=200
 full="trap '' XFSZ; ulimit -f 40; exec"
 refused "Cannot write.*0.03/particles.hdf" "true" bash -c "$full ispfFsiFoam"
 refused "Cannot write.*particles.hdf" "rm -r 0 0.* constant/*.hdf *.series" bash -c "$full generateParticles"
+# of a case made anew all files are those of before, or all are new
+finer="sed -i 's/^dx .*/dx 0.005;/' system/particleDict"
+refused "Cannot write.*particles.hdf" "$finer" bash -c "$full generateParticles"
+find . -name '*.tmp' | grep . && fail "temporary files are left by generateParticles"
+made() { cksum 0/* constant/*.hdf constant/triSurface/* | sort -k 3; }
+cd "$scratch/sound" || exit 1; old=$(made)
+cp -r . ../finer; cd ../finer || exit 1; eval "$finer"; place; new=$(made)
+for signal in TERM INT; do
+    rm -rf ../stopped; cp -r ../sound ../stopped; cd ../stopped || exit 1; eval "$finer"
+    # at the first sign of a write
+    env --default-signal=INT generateParticles > log 2>&1 & run=$!
+    until find . -name '*.tmp' | grep -q . || ! kill -0 $run 2> /dev/null; do :; done
+    kill -$signal $run; wait $run
+    [ "$(made)" = "$old" ] || [ "$(made)" = "$new" ] || fail "generateParticles, SIG$signal: $(made | diff <(echo "$old") - | head -n 4)"
+    find . -name '*.tmp' | grep . && fail "temporary files are left by generateParticles, SIG$signal"
+done
 refused "0.03" "touch 0.03" ispfFsiFoam
+# whom a file is not for
+if [ "$(id -u)" = 0 ] && runuser -u nobody -- test -x "$(command -v checkParticles)"; then
+    chmod 755 "$scratch"
+    refused "Cannot read '.*0.02/particles.hdf': Permission denied" "chmod 000 0.02/particles.hdf" \
+        runuser -u nobody -- "$(command -v checkParticles)"
+fi
 # a log that cannot be written stops no run, but it is told at the end
 logless() { # how the log is lost, what is said of it
     rm -rf "$scratch/broken"; cp -r "$scratch/sound" "$scratch/broken"; cd "$scratch/broken" || exit 1

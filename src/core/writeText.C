@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // writeText: a file that is either the old one or the new one, never a part of it
 #include "fileNames.H"
+#include "heldSignals.H"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -108,6 +109,7 @@ void syncFolder(const word& path, const word& folder)
 
 void writeTexts(const List<namedText>& files)
 {
+    const heldSignals untilDone;
     std::list<temporaryFile> written;
     for (const auto& [path, text] : files)
     {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fileNames.H"
-#include "triSurface.H"
+#include "stlWriter.H"
 
 #include <cstring>
 #include <iomanip>
@@ -60,12 +59,17 @@ void writeAscii(std::ostream& out, const triSurface& s)
 
 }  // namespace
 
-void writeSTL(const triSurface& surface, const word& path, bool binary)
+namedText stlText(const triSurface& surface, const word& path, bool binary)
 {
     std::ostringstream out;
     if (binary) writeBinary(out, surface);
     else writeAscii(out, surface);
-    writeText(path, out.str());
+    return {path, out.str()};
+}
+
+void writeSTL(const triSurface& surface, const word& path, bool binary)
+{
+    writeTexts({stlText(surface, path, binary)});
 }
 
 }  // namespace ispf

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "caseWriter.H"
 
+#include "heldSignals.H"
 #include "particleTable.H"
+#include "stlWriter.H"
 #include <filesystem>
 #include <numeric>
 
@@ -41,10 +43,9 @@ List<word> patchNames(const zoneGeometry& geometry)
     return names;
 }
 
-}  // namespace
-
-void writeSurfaces(const word& caseFolder, const zoneGeometry& geometry)
+List<namedText> surfaceTexts(const word& caseFolder, const zoneGeometry& geometry)
 {
+    List<namedText> files;
     const word folder = caseFolder + "/constant/triSurface/";
     for (size_t p = 0; p < geometry.patches().size(); ++p)
     {
@@ -52,7 +53,7 @@ void writeSurfaces(const word& caseFolder, const zoneGeometry& geometry)
         triSurface s = forDisk(geometry.patchSurface(label(p)), geometry);
         s.patchNames = {geometry.patches()[p].name};
         s.patch.assign(s.patch.size(), 0);
-        writeSTL(s, folder + geometry.patches()[p].name + ".stl");
+        files.push_back(stlText(s, folder + geometry.patches()[p].name + ".stl"));
     }
     for (size_t a = 0; a < geometry.zones().size(); ++a)
         for (const zoneInfo& fluid : geometry.zones())
@@ -67,13 +68,15 @@ void writeSurfaces(const word& caseFolder, const zoneGeometry& geometry)
             triSurface part = forDisk(s.patchSurface(side), geometry);
             const word name = solid.name + "_to_" + fluid.name;
             part.patchNames = {name};
-            writeSTL(part, folder + name + ".stl");
+            files.push_back(stlText(part, folder + name + ".stl"));
         }
+    return files;
 }
 
-void writeParticleFiles(const word& caseFolder, const zoneGeometry& geometry,
-                        const placedParticles& placed, const List<initialFields>& initial,
-                        const List<word>& sources, label stripLayers)
+}  // namespace
+
+void writeCase(const word& caseFolder, const zoneGeometry& geometry, const placedParticles& placed,
+               const List<initialFields>& initial, const List<word>& sources, label stripLayers)
 {
     particleTable particles = emptyTable(geometry, sources);
     particles.x = placed.x;
@@ -107,7 +110,8 @@ void writeParticleFiles(const word& caseFolder, const zoneGeometry& geometry,
     sites.attributes["zones"] = particles.attributes["zones"];
     sites.setAttribute("stripLayers", stripLayers);
 
-    List<namedText> files;
+    const heldSignals untilDone;
+    List<namedText> files = surfaceTexts(caseFolder, geometry);
     for (const auto& [table, file] :
          {std::pair(&walls, "/constant/wallParticles.hdf"),
           std::pair(&sites, "/constant/openSites.hdf"), std::pair(&particles, "/0/particles.hdf")})

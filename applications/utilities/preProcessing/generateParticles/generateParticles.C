@@ -39,15 +39,13 @@ int main(int argc, char** argv)
         info() << "Reading the geometry" << std::endl;
         const zoneGeometry geometry = dict.geometry();
         const exterior outside(geometry, dict.wallThickness(), dict.stripWidth());
-        writeSurfaces(folder, geometry);
 
         info() << "Placing particles" << std::endl;
         const placedParticles placed =
             dict.bodyFitted ? placeBodyFitted(geometry, outside, dict.support)
                             : placeOnLattice(geometry, outside, dict.origin, dict.support);
         reportPacking(geometry, placed, dict.support, dict.bodyFitted);
-        writeParticleFiles(folder, geometry, placed, dict.initial(), dict.sources,
-                           dict.stripLayers);
+        writeCase(folder, geometry, placed, dict.initial(), dict.sources, dict.stripLayers);
         warnOfOldTimes(folder);
         info() << "End" << std::endl;
         return 0;
