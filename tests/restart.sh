@@ -63,11 +63,15 @@ solved
 numbers() { awk '/^\)/ { on = 0 } on; /^\($/ { on = 1 }' "$1"; }
 sed 's/object      id/object      tag/' 0.125/id > 0.125/tag
 { echo "internalField nonuniform List<scalar>"; numbers 0.125/id | awk '{ t[NR] = $1/7 } END { print NR "("; for (i = 1; i <= NR; ++i) print t[i]; print ");" }'; } > 0.125/seventh
+{ echo "internalField nonuniform List<tensor>"; numbers 0.125/id | awk '{ t[NR] = "(" $1 " 0 0 0 0 0 0 0 " 2*$1 ")" } END { print NR "("; for (i = 1; i <= NR; ++i) print t[i]; print ");" }'; } > 0.125/nine
+echo 'no field: "' > 0.125/notes.txt
 setEntry $control endTime 0.625
 solved
 grep -q "0.125/tag has no checksum" log || fail "nothing is said of the field 'tag'"
-paste <(numbers 0.625/id) <(numbers 0.625/tag) <(numbers 0.625/seventh) | awk -v next0="$(awk -F'"' '$2 == "nextId" { print $4 }' 0.125/uniform/particles)" '
-    $1 < next0 { ++old; wrong += $1 != $2 || ($3 - $1/7)^2 > 1e-8 }
+grep -q "0.125/notes.txt is no field: later times are without it" log || fail "nothing is said of notes.txt"
+grep -q "List<tensor>" 0.625/nine || fail "a field of tensors has become another"
+paste <(numbers 0.625/id) <(numbers 0.625/tag) <(numbers 0.625/seventh) <(numbers 0.625/nine | tr -d '()') | awk -v next0="$(awk -F'"' '$2 == "nextId" { print $4 }' 0.125/uniform/particles)" '
+    $1 < next0 { ++old; wrong += $1 != $2 || ($3 - $1/7)^2 > 1e-8 || $4 != $1 || $8 != 0 || $12 != 2*$1 }
     $1 >= next0 { ++new; wrong += $2 >= next0 || $3 <= 0 }
     END { if (wrong || !old || !new) print "of " old " old and " new " new particles " wrong " have lost it" }' > lost
 [ -s lost ] && fail "unknown fields: $(cat lost)"

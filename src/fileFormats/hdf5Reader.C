@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hdf5File.H"
 #include "hdf5Support.H"
+#include "wideColumns.H"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -84,6 +85,44 @@ bool hdf5Reader::foundAttribute(const word& object, const word& name) const
     return H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
+List<word> hdf5Reader::attributes(const word& object) const
+{
+    List<word> names;
+    const auto add = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
+        static_cast<List<word>*>(list)->push_back(name);
+        return 0;
+    };
+    if (H5Aiterate_by_name(file_, object.c_str(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add,
+                           &names, H5P_DEFAULT) < 0)
+        fail("the attributes of '" + object + "' are damaged (" + hdf5Reason() + ")");
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+size_t hdf5Reader::width(const word& path) const
+{
+    const hdf5Id set = checked(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose, path);
+    const hdf5Id space = checked(H5Dget_space(set), H5Sclose, path);
+    hsize_t shape[2] = {0, 0};
+    if (H5Sget_simple_extent_ndims(space) == 2) H5Sget_simple_extent_dims(space, shape, nullptr);
+    if (shape[1] == 0 || shape[1] > mostComponents) fail("'" + path + "' has another shape");
+    return shape[1];
+}
+
+bool hdf5Reader::exceedsIntegers(const word& path) const
+{
+    const bool wide = kindOf(path) == kind::wideIntegers;
+    const hdf5Id set = checked(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose, path);
+    const hdf5Id type = checked(H5Dget_type(set), H5Tclose, path);
+    if (H5Tget_size(type) > sizeof(globalId)) return true;
+    if (H5Tget_sign(type) != H5T_SGN_NONE || H5Tget_size(type) < sizeof(globalId)) return false;
+    List<std::uint64_t> values;
+    const size_t n = wide ? width(path) : 1;
+    readData(path, kindOf(path), n * sizeof(globalId), H5T_NATIVE_UINT64,
+             [&](size_t rows) { return values.resize(rows * n), values.data(); });
+    return std::any_of(values.begin(), values.end(), [](std::uint64_t v) { return v >> 63; });
+}
+
 hdf5Reader::kind hdf5Reader::kindOf(const word& path) const
 {
     if (!found(path)) fail("'" + path + "' is missing");
@@ -98,16 +137,18 @@ hdf5Reader::kind hdf5Reader::kindOf(const word& path) const
     hsize_t shape[2] = {0, 0};
     if (rank > 2) return kind::other;
     H5Sget_simple_extent_dims(space, shape, nullptr);
+    const bool isWide = rank == 2 && shape[1] > 0 && shape[1] <= mostComponents;
     switch (H5Tget_class(type))
     {
         case H5T_FLOAT:
             return rank == 1                    ? kind::scalars
                    : rank == 2 && shape[1] == 3 ? kind::vectors
+                   : isWide                     ? kind::wideScalars
                                                 : kind::other;
         case H5T_INTEGER:
-            return rank == 1 ? kind::integers : kind::other;
+            return rank == 1 ? kind::integers : isWide ? kind::wideIntegers : kind::other;
         case H5T_STRING:
-            return rank == 0 && H5Tis_variable_str(type) == 0 ? kind::text : kind::other;
+            return rank == 0 ? kind::text : kind::other;
         default:
             return kind::other;
     }
@@ -146,11 +187,34 @@ void hdf5Reader::read(const word& path, List<globalId>& values) const
              [&](size_t n) { return values.resize(n), values.data(); });
 }
 
+void hdf5Reader::readWide(const word& path, List<scalar>& values) const
+{
+    const size_t n = width(path);
+    readData(path, kind::wideScalars, n * sizeof(scalar), H5T_NATIVE_DOUBLE,
+             [&](size_t rows) { return values.resize(rows * n), values.data(); });
+}
+
+void hdf5Reader::readWide(const word& path, List<globalId>& values) const
+{
+    const size_t n = width(path);
+    readData(path, kind::wideIntegers, n * sizeof(globalId), H5T_NATIVE_INT64,
+             [&](size_t rows) { return values.resize(rows * n), values.data(); });
+}
+
 void hdf5Reader::read(const word& path, word& text) const
 {
     if (kindOf(path) != kind::text) fail("'" + path + "' is not a text");
     const hdf5Id set = checked(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose, path);
     const hdf5Id type = checked(H5Dget_type(set), H5Tclose, path);
+    if (H5Tis_variable_str(type) > 0)
+    {
+        char* chars = nullptr;
+        if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &chars) < 0)
+            fail("'" + path + "' is truncated or damaged (" + hdf5Reason() + ")");
+        text = chars ? chars : "";
+        H5free_memory(chars);
+        return;
+    }
     const size_t size = H5Tget_size(type);
     if (size > fileSize_) fail("'" + path + "' is longer than the file");
     text.assign(size, '\0');

@@ -91,6 +91,16 @@ void hdf5Writer::write(const word& path, const List<globalId>& values)
     writeData(path, H5T_NATIVE_INT64, {values.size()}, values.data());
 }
 
+void hdf5Writer::write(const word& path, const List<scalar>& values, size_t width)
+{
+    writeData(path, H5T_NATIVE_DOUBLE, {values.size() / width, width}, values.data());
+}
+
+void hdf5Writer::write(const word& path, const List<globalId>& values, size_t width)
+{
+    writeData(path, H5T_NATIVE_INT64, {values.size() / width, width}, values.data());
+}
+
 void hdf5Writer::write(const word& path, const List<std::uint8_t>& values)
 {
     writeData(path, H5T_NATIVE_UINT8, {values.size()}, values.data());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Layout of the file, version 2:
-//   /VTKHDF             UnstructuredGrid 1.0: Points, one vertex cell each, PointData/<column>
+//   /VTKHDF             UnstructuredGrid 1.0: Points, one vertex cell each, PointData/<column>, of shape (n), (n, 3) or,
+//                       where somebody else has put it in, (n, any): wideColumns.H
 //   /ispf               attribute version; contents: the paths of what follows and of all columns
 //   /ispf/extra/<name>, /ispf/text/<name>
 // Each array of ours has an attribute checksum.  All numbers are double or 64-bit integers, so what ParaView
@@ -10,7 +11,9 @@
 #include "fileNames.H"
 #include "hdf5File.H"
 #include "particleTableCheck.H"
+#include "wideColumns.H"
 
+#include <algorithm>
 #include <numeric>
 #include <sstream>
 
@@ -37,8 +40,8 @@ public:
         file_.group(texts);
         file_.attribute(ours, "version", List<globalId>{formatVersion});
         put(points, table.x);
-        putAll(columns, table.scalars), putAll(columns, table.vectors);
-        putAll(columns, table.integers), putAll(extras, table.extra);
+        putColumns(table, table.scalars), putAll(columns, table.vectors);
+        putColumns(table, table.integers), putAll(extras, table.extra);
         putAll(texts, table.attributes);
         put(contents, word(list_));
         return file_.bytes();
@@ -51,6 +54,23 @@ private:
         file_.write(path, values);
         file_.attribute(path, sum, List<globalId>{checksumOf(path, values)});
         list_ += path + "\n";
+    }
+    template <class T>
+    void putColumns(const particleTable& table, const std::map<word, List<T>>& list)
+    {
+        for (const diskColumn<T>& column : diskColumns(table, list))
+        {
+            const word path = columns + "/" + column.name;
+            if (!column.wide)
+            {
+                put(path, *column.parts[0]);
+                continue;
+            }
+            const List<T> flat = column.flat();
+            file_.write(path, flat, column.parts.size());
+            file_.attribute(path, sum, List<globalId>{checksumOf(path, flat)});
+            list_ += path + "\n";
+        }
     }
     template <class Columns>
     void putAll(const word& group, const Columns& list)
@@ -87,15 +107,16 @@ public:
     particleTable read()
     {
         version_ = readVersion();
-        for (const word& name : file_.children("/"))
-            if ("/" + name != grid && "/" + name != ours)
-                remark("'/" + name + "' is not one of particles: later times are without it");
+        remarkOthers();
         particleTable table;
         get(points, table.x);
         for (const word& name : file_.children(columns)) readColumn(name, table);
-        for (const word& name : file_.children(extras)) get(extras + "/" + name, table.extra[name]);
+        for (const word& name : file_.children(extras))
+            if (isOf(extras + "/" + name, hdf5Reader::kind::scalars))
+                get(extras + "/" + name, table.extra[name]);
         for (const word& name : file_.children(texts))
-            get(texts + "/" + name, table.attributes[name]);
+            if (isOf(texts + "/" + name, hdf5Reader::kind::text))
+                get(texts + "/" + name, table.attributes[name]);
         checkTable(table, "Cannot read '" + path_ + "'");
         if (version_ == 1) checkWhole(table);
         else checkContents();
@@ -104,6 +125,45 @@ public:
 
 private:
     void remark(const word& text) { remarks_.push_back(path_ + ": " + text); }
+    void remarkLost(const word& what) { remark(what + ": later times are without it"); }
+
+    // What is not kept
+    void remarkOthers()
+    {
+        const auto others = [&](const word& group, const List<word>& known) {
+            for (const word& name : file_.found(group) ? file_.children(group) : List<word>())
+                if (std::find(known.begin(), known.end(), name) == known.end())
+                    remarkLost("'" + (group == "/" ? "" : group) + "/" + name +
+                               "' is not one of particles");
+        };
+        others("/", {grid.substr(1), ours.substr(1)});
+        others(grid, {"Points", "PointData", "NumberOfPoints", "NumberOfCells",
+                      "NumberOfConnectivityIds", "Offsets", "Connectivity", "Types"});
+        others(ours, {"extra", "text", "contents"});
+        remarkAttributes("/", {}), remarkAttributes(grid, {"Version", "Type"});
+        remarkAttributes(ours, {"version", sum}), remarkAttributes(points, {sum});
+        for (const word& group : {columns, extras, texts})
+            for (const word& name : file_.found(group) ? file_.children(group) : List<word>())
+                remarkAttributes(group + "/" + name, {sum});
+    }
+
+    void remarkAttributes(const word& object, const List<word>& known)
+    {
+        if (!file_.found(object) && object != "/") return;
+        for (const word& name : file_.attributes(object))
+            if (std::find(known.begin(), known.end(), name) == known.end())
+                remarkLost("the attribute " + name + " of '" + object + "' is of no use here");
+    }
+
+    // An array or text of ours; one of another kind somebody else has put in
+    bool isOf(const word& path, hdf5Reader::kind wanted)
+    {
+        const bool damaged = file_.foundAttribute(path, sum);
+        if (damaged || file_.kindOf(path) == wanted) return true;
+        remarkLost("'" + path + "' is no " +
+                   (wanted == hdf5Reader::kind::text ? "text" : "list of real numbers"));
+        return false;
+    }
 
     globalId readVersion() const
     {
@@ -124,6 +184,12 @@ private:
     void get(const word& path, T& values)
     {
         file_.read(path, values);
+        check(path, values);
+    }
+
+    template <class T>
+    void check(const word& path, const T& values)
+    {
         if (version_ == 1) return;
         if (!file_.foundAttribute(path, sum))
             return remark("'" + path +
@@ -148,13 +214,31 @@ private:
             case hdf5Reader::kind::vectors:
                 return get(path, table.vectors[name]);
             case hdf5Reader::kind::integers:
-                return get(path, table.integers[name]);
+                return fits(path) ? get(path, table.integers[name]) : void();
+            case hdf5Reader::kind::wideScalars:
+                return getWide(name, table.scalars);
+            case hdf5Reader::kind::wideIntegers:
+                return fits(path) ? getWide(name, table.integers) : void();
             default:
-                file_.fail(
-                    "column '" + name +
-                    "' is neither scalar, vector nor integer: give its components columns of "
-                    "their own");
+                remarkLost("'" + path + "' has no rows of numbers");
         }
+    }
+
+    bool fits(const word& path)
+    {
+        if (!file_.exceedsIntegers(path)) return true;
+        remarkLost("'" + path + "' holds whole numbers beyond 2^63");
+        return false;
+    }
+
+    template <class T>
+    void getWide(const word& name, std::map<word, List<T>>& list)
+    {
+        const word path = columns + "/" + name;
+        List<T> flat;
+        file_.readWide(path, flat);
+        check(path, flat);
+        split(flat, name, file_.width(path), list);
     }
 
     void checkWhole(const particleTable& table)
