@@ -46,6 +46,22 @@ solved
 same 0.5 ../notKilled/0.5 "continued after kill -9"
 seriesComplete "killed"
 
+# Steps too small for the digits of the times: each start goes on with names that tell them apart, in order
+newCase piston fineSteps; place
+solved
+for more in "timePrecision 2; deltaT 2e-5; writeInterval 1; endTime 0.26004;" "endTime 0.26008;" "endTime 0.2601;"; do
+    echo "$more" >> system/controlDict
+    solved
+    seriesComplete "fine steps, $more"
+done
+[ "$(echo 0.26*)" = "0.26 0.26002 0.26004 0.26006 0.26008 0.2601" ] || fail "fine steps: $(echo 0.26*)"
+newCase piston manyDigits; place
+echo "deltaT 0.0123456789; writeInterval 1; endTime 0.024;" >> system/controlDict
+solved
+[ "$(awk -f "$cases/series.awk" particles.hdf.series)" = $'0 0/particles.hdf
+0.0123456789 0.0123457/particles.hdf
+0.0246913578 0.0246914/particles.hdf' ] || fail "many digits: $(cat particles.hdf.series)"
+
 # Large enough for several threads
 for template in piston membrane; do
     newCase $template threads

@@ -91,9 +91,13 @@ refused "openSites.hdf has [0-9]+ points of a patch 'top'"
 sed 's/direction (0 1 0)/direction (0 1 1)/' kept > constant/boundary
 refused "patch piston must not move along z"
 mv kept constant/boundary
-setEntry $control deltaT 0.02; setEntry $control writeInterval 1  # longer than the run
+setEntry $control deltaT 0.02; setEntry $control writeInterval 1
+setEntry $control endTime 0.01  # a step is longer than the run
+refused "deltaT 0.02 s is twice as long as the run or longer, from 0 to endTime 0.01 s"
+setEntry $control endTime 0.011
 solved
-[ -e 0.01/particles.hdf ] && seriesComplete "one short step" || fail "no step: $(tail -n 4 log)"
+grep -qx "endTime 0.011 s lies between two steps of deltaT 0.02 s: the run ends at 0.02 s" log || fail "no word of another end"
+[ -e 0.02/particles.hdf ] && seriesComplete "one long step" || fail "no step: $(tail -n 4 log)"
 newCase membrane flat; place
 setEntry $control endTime 0.01
 with $solution "volumeLedger { zone blood; }" "sphSolution.volumeLedger.zone at line"

@@ -56,6 +56,17 @@ rm -r 0.* postProcessing; setEntry $control writeInterval 0.625
 solved
 same 0.625 ../monolithic.no/0.625 "written once and three times"
 
+# Ended between two steps, then let run on: endTime changes no step
+cp -r ../monolithic.no ../prolonged && cd ../prolonged || exit 1
+rm -r 0.* postProcessing; setEntry $control endTime 0.1289
+solved
+grep -qx "endTime 0.1289 s lies between two steps of deltaT 0.0025 s: the run ends at 0.13 s" log || fail "prolonged: no word of the end"
+[ "$(grep '^Time = ' log | tail -n 1)" = "Time = 0.13" ] || fail "prolonged: $(grep '^Time = ' log | tail -n 1)"
+same 0.125 ../monolithic.no/0.125 "to 0.1289 and to 0.625"
+setEntry $control endTime 0.25
+solved
+same 0.25 ../monolithic.no/0.25 "to 0.1289, then to 0.25, and to 0.625"
+
 # Fields that nobody here knows stay with their particles; newcomers take them from the nearest
 cp -r ../monolithic.no ../unknown && cd ../unknown || exit 1
 rm -r 0.* postProcessing; echo "writeFormat ascii;" >> $control; setEntry $control endTime 0.125

@@ -2,6 +2,7 @@
 #include "Time.H"
 
 #include "fileNames.H"
+#include "token.H"
 #include <algorithm>
 #include <cmath>
 #include <csignal>
@@ -17,6 +18,15 @@ namespace
 volatile std::sig_atomic_t stopSignal = 0;
 
 constexpr scalar never = std::numeric_limits<scalar>::infinity();
+
+// t to 15 digits where that is within the tolerance
+scalar inFewDigits(scalar t, scalar tolerance)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.15g", t);
+    const scalar rounded = std::strtod(text, nullptr);
+    return std::abs(rounded - t) <= tolerance ? rounded : t;
+}
 
 }  // namespace
 
@@ -37,9 +47,16 @@ Time::Time(const word& caseFolder) : Time(caseFolder, false)
 {
     startTime_ = value_ = previous_ = chosenStart();
     readState();
-    if (!run())
-        warning(
-            "endTime " + str(endTime_) + " is not after the start " + str(value_) +
+    if (run()) return;
+    if (endTime_ > value_ + slack() && index_ == 0)
+        control_.fail("deltaT",
+                      "deltaT " + str(steadyDeltaT()) +
+                          " s is twice as long as the run or longer, from " + str(value_) +
+                          " to endTime " + str(endTime_) +
+                          " s: not one step ends near there. Lower deltaT or raise endTime");
+    warning("endTime " + str(endTime_) +
+            (endTime_ > value_ + slack() ? " is less than half a step" : " is not") +
+            " after the start " + str(value_) +
             ": there is nothing to run. Raise endTime, or let startFrom choose an earlier start");
 }
 
@@ -47,6 +64,7 @@ void Time::goTo(scalar t)
 {
     const scalar start = startTime_;
     startTime_ = value_ = previous_ = t;
+    precision_ = askedPrecision(control_), grownPrecision_ = 0;  // each folder has its own
     writeNow_ = answer::unknown;
     readState();
     if (started_) startTime_ = start;
@@ -59,23 +77,47 @@ scalar Time::slack() const
     return 1e-9 * deltaT_ + 2e-15 * std::abs(value_);
 }
 
+bool Time::keepsDeltaT() const
+{
+    return !adjust_ && writeControl_ != "adjustableRunTime" && hitIntervals_.empty() &&
+           writeTimes_.empty();
+}
+
+bool Time::endIsAhead() const
+{
+    return reach() < endTime_;
+}
+
 bool Time::run() const
 {
     if (stopAfterThis_ || (stop_ && !stopWrites_)) return false;
-    return value_ + slack() < endTime_;
+    return endIsAhead();
 }
 
 scalar Time::nextTarget() const
 {
     const scalar now = value_ + slack();
-    scalar target = endTime_ > now ? endTime_ : never;
+    scalar target = never;
     const auto multiple = [&](scalar interval) {
-        target = std::min(target, interval * (std::floor(now / interval) + 1));
+        const scalar next = interval * (std::floor(now / interval) + 1);
+        target = std::min(target,
+                          inFewDigits(next, slack()));  // 3 times 0.1 is 0.3, as endTime would be
     };
     if (writeControl_ == "adjustableRunTime") multiple(writeInterval_);
     for (const scalar interval : hitIntervals_) multiple(interval);
     const auto next = std::upper_bound(writeTimes_.begin(), writeTimes_.end(), now);
-    return next == writeTimes_.end() ? target : std::min(target, *next);
+    if (next != writeTimes_.end()) target = std::min(target, *next);
+    // only the last two steps know of endTime
+    const bool endsSoon = !keepsDeltaT() && endTime_ > now && endTime_ - value_ < 2 * deltaT_;
+    return endsSoon && endTime_ + slack() < target ? endTime_ : target;
+}
+
+// Equal steps up to the next instant: none is shorter than half of what was asked for
+scalar Time::nextStep(scalar dt) const
+{
+    const scalar remaining = nextTarget() - value_;
+    if (!std::isfinite(remaining)) return dt;
+    return remaining / std::max(1.0, std::ceil(remaining / dt * (1 - 1e-9)));
 }
 
 void Time::setDeltaT(scalar dt)
@@ -84,10 +126,20 @@ void Time::setDeltaT(scalar dt)
         throw fatalError("The time step is " + str(dt) + " s at time " + timeName() +
                          "; it must be positive.");
     deltaT_ = std::min(dt, maxDeltaT_);
-    const scalar remaining = nextTarget() - value_;
-    // Equal steps up to the next instant: none is shorter than half of what was asked for
-    if (std::isfinite(remaining))
-        deltaT_ = remaining / std::max(1.0, std::ceil(remaining / deltaT_ * (1 - 1e-9)));
+    deltaT_ = nextStep(deltaT_);
+}
+
+word Time::remarkOnSteps() const
+{
+    if (adjust_ || !run()) return "";
+    const scalar dt = steadyDeltaT(), step = nextStep(dt);
+    if (step < dt * (1 - 1e-6))
+        return "deltaT " + str(dt) + " s is shortened to " + str(step) +
+               " s: equal steps lead to the instant " + str(nextTarget()) + " s\n";
+    const scalar end = value_ + dt * std::ceil((endTime_ - value_ - slack()) / dt - 0.5);
+    if (!keepsDeltaT() || !std::isfinite(end) || std::abs(end - endTime_) < 1e-6 * dt) return "";
+    return "endTime " + str(endTime_) + " s lies between two steps of deltaT " + str(dt) +
+           " s: the run ends at " + str(end) + " s\n";
 }
 
 Time& Time::operator++()
@@ -96,10 +148,11 @@ Time& Time::operator++()
     const scalar target = nextTarget();
     previous_ = value_;
     value_ += deltaT_;
-    // Land on the instant itself, not beside it by rounding
+    // Land on the instant itself, not beside it by rounding.  Without one: ten steps of 0.1 make 1
     if (std::abs(value_ - target) < slack()) value_ = target;
+    else if (target == never) value_ = inFewDigits(value_, 1e-6 * deltaT_);
     ++index_;
-    growPrecision();
+    growPrecision(deltaT_ / 10);
     writeNow_ = answer::unknown;
     return *this;
 }
@@ -112,17 +165,27 @@ void Time::rewind(scalar value, label index)
     stopAfterThis_ = false, stoppedBy_ = 0;
 }
 
-// Two different instants must not share a folder name
-void Time::growPrecision()
+// The folder's name reads as its time, within the tolerance (OpenFOAM: a tenth of the step), so that no other has it and
+// none that comes later seems earlier
+void Time::growPrecision(scalar tolerance)
 {
-    if (value_ == previous_) return;
     const int before = precision_;
-    while (precision_ < 17 && timeName(value_) == timeName(previous_)) ++precision_;
+    const word name = timeName();
+    const auto isOff = [&] {
+        scalar named = 0;
+        return !readNumber(timeName(), named) || std::abs(named - value_) > tolerance;
+    };
+    while (precision_ < 17 && isOff()) ++precision_;
     if (precision_ == before) return;
     grownPrecision_ = precision_;
-    warning("timePrecision raised from " + std::to_string(before) + " to " +
-            std::to_string(precision_) + " to tell the times " + timeName(previous_) + " and " +
-            timeName(value_) + " apart.");
+    if (!postProcessing_)
+        warning("timePrecision raised from " + std::to_string(before) + " to " +
+                std::to_string(precision_) + ": the time is " + timeName() + ", not " + name + ".");
+}
+
+scalar Time::reach() const
+{
+    return value_ + slack() + (keepsDeltaT() ? steadyDeltaT() / 2 : 0);
 }
 
 bool Time::passesWriteInstant() const
@@ -133,8 +196,9 @@ bool Time::passesWriteInstant() const
     if (writeControl_ == "timeStep") return index_ % label(writeInterval_) == 0;
     if (writeControl_ == "clockTime" || writeControl_ == "cpuTime")
         return clockStamp() > lastStamp_;
-    return std::floor((value_ + slack()) / writeInterval_) >
-           std::floor((previous_ + slack()) / writeInterval_);
+    const bool isHit = writeControl_ == "adjustableRunTime";
+    const scalar now = isHit ? value_ + slack() : reach(), step = value_ - previous_;
+    return std::floor(now / writeInterval_) > std::floor((now - step) / writeInterval_);
 }
 
 label Time::clockStamp() const
@@ -151,7 +215,7 @@ bool Time::writeTime() const
     {
         const bool instant = passesWriteInstant();
         const int signal = stopSignal;
-        if (signal != 0 && value_ + slack() < endTime_)
+        if (signal != 0 && endIsAhead())
         {
             stoppedBy_ = signal;
             warning(word(signal == SIGINT ? "SIGINT" : "SIGTERM") +

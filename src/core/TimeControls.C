@@ -27,10 +27,12 @@ word formattedTime(const char* form, int precision, scalar t)
     return text;
 }
 
-// Is `name` a way of writing t, with whatever timeFormat and timePrecision it was written
-bool isNameOf(const word& name, scalar t)
+// Is `name` a way of writing t, with whatever timeFormat and timePrecision it was written.  What growPrecision lets pass
+// is one at any precision
+bool isNameOf(const word& name, scalar t, scalar deltaT)
 {
-    if (scalar number; readNumber(name, number) && std::abs(number - t) <= 1e-12 * std::abs(t))
+    if (scalar number; readNumber(name, number) &&
+                       std::abs(number - t) <= std::max(0.1 * deltaT, 1e-12 * std::abs(t)))
         return true;
     for (int precision = 3; precision <= 17; ++precision)
         for (const char* form : {"%.*g", "%.*f", "%.*e"})
@@ -46,15 +48,24 @@ globalId clockChecksum(scalar value, label index, scalar deltaT)
     return sum.value();
 }
 
-// Neither index nor deltaT could be told wrong otherwise.  Files of earlier versions have none
-void checkClock(const dictionary& d, scalar value, label index, scalar deltaT)
+struct clock
 {
+    scalar value;
+    label index;
+    scalar deltaT;
+};
+
+// Neither index nor deltaT could be told wrong without the checksum.  Files of earlier versions have none
+clock clockOf(const dictionary& d)
+{
+    const clock c = {d.get<scalar>("value"), d.get<label>("index"), d.get<scalar>("deltaT")};
     if (d.found("checksum") &&
-        d.get<word>("checksum") != std::to_string(clockChecksum(value, index, deltaT)))
+        d.get<word>("checksum") != std::to_string(clockChecksum(c.value, c.index, c.deltaT)))
         d.fail("checksum", "It does not fit value, index and deltaT: " + d.path() +
                                " was damaged, or edited. If you have edited it, take the entry "
                                "'checksum' out of it; without the file the clock is set from the "
                                "particles.");
+    return c;
 }
 
 // What is left in a time folder without a state
@@ -122,6 +133,11 @@ void Time::readControls(const dictionary& d)
     for (const char* key : {"application", "graphFormat", "libs", "writeCompression"}) d.found(key);
 }
 
+int Time::askedPrecision(const dictionary& d)
+{
+    return int(d.getInRangeOrDefault<label>("timePrecision", 1, 17, 6));
+}
+
 void Time::readWriteControls(const dictionary& d)
 {
     const List<word> controls = {
@@ -143,7 +159,7 @@ void Time::readWriteControls(const dictionary& d)
     writePrecision_ = d.getInRangeOrDefault<label>("writePrecision", 1, 17, byKind);
     purge_ = d.getInRangeOrDefault<label>("purgeWrite", 0, 1e9, 0);
     format_ = d.chooseOrDefault("timeFormat", {"general", "fixed", "scientific"}, "general");
-    precision_ = std::max(grownPrecision_, d.getInRangeOrDefault<label>("timePrecision", 1, 17, 6));
+    precision_ = std::max(grownPrecision_, askedPrecision(d));
 }
 
 void Time::rereadIfModified()
@@ -213,17 +229,38 @@ void Time::readState()
 {
     const dictionary d = dictionary::fromFileIfPresent(folder() + "/uniform/time");
     hasClock_ = !d.empty();
-    if (!hasClock_) return;
-    const auto value = d.get<scalar>("value"), deltaT = d.get<scalar>("deltaT");
-    const label index = d.get<label>("index");
-    checkClock(d, value, index, deltaT);
-    recall(value, index, deltaT, d.path());
+    const scalar named = value_;
+    if (hasClock_)
+    {
+        const auto [value, index, deltaT] = clockOf(d);
+        recall(value, index, deltaT, d.path());
+    }
+    // as many digits as the folder's name has, so that this time goes by that name
+    if (isFolder(case_ + "/" + folderName(named)))
+        growPrecision(std::abs(value_ - named) + 1e-12 * std::abs(value_));
+}
+
+scalar Time::timeOf(const folderOfTime& f) const
+{
+    const auto known = timeOf_.find(f.name);
+    if (known != timeOf_.end()) return known->second;
+    scalar t = f.t;
+    try
+    {
+        const dictionary d = dictionary::fromFileIfPresent(case_ + "/" + f.name + "/uniform/time");
+        const clock c = d.empty() ? clock{t, 0, 0} : clockOf(d);
+        if (isNameOf(f.name, c.value, c.deltaT)) t = c.value;
+    }
+    catch (const fatalError&)  // who starts there is told
+    {
+    }
+    return timeOf_[f.name] = t;
 }
 
 void Time::recall(scalar value, label index, scalar deltaT, const word& source)
 {
     const word name = folderName(value_);
-    if (name != timeName(value) && !isNameOf(name, value))
+    if (name != timeName(value) && !isNameOf(name, value, deltaT))
     {
         warning(source + " speaks of time " + str(value, 10) +
                 ", its folder of another: the folder's name is believed.");
@@ -237,6 +274,7 @@ void Time::recall(scalar value, label index, scalar deltaT, const word& source)
 void Time::writeState() const
 {
     const word name = timeName();
+    timeOf_[name] = value_;
     writeText(folder() + "/uniform/time",
               "FoamFile\n{\n    version     2.0;\n    format      ascii;\n"
               "    class       dictionary;\n    location    \"" +

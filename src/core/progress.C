@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "progress.H"
 
+#include <algorithm>
 #include <unistd.h>
 #include <cstdio>
 
@@ -20,10 +21,11 @@ void progress::update(const word& remark)
     last_ = time_.elapsedClockTime();
     const int eta = int(time_.etaSeconds());
     const scalar done = (time_.value() - time_.startTime()) / (time_.endTime() - time_.startTime());
-    std::fprintf(
-        stderr, "\r%5.1f %%  step %d  time %s s of %s  dt %s s (%s)  ETA %d:%02d:%02d   \r",
-        100 * done, time_.timeIndex(), time_.timeName().c_str(), str(time_.endTime()).c_str(),
-        str(time_.deltaT(), 3).c_str(), remark.c_str(), eta / 3600, eta / 60 % 60, eta % 60);
+    std::fprintf(stderr,
+                 "\r%5.1f %%  step %d  time %s s of %s  dt %s s (%s)  ETA %d:%02d:%02d   \r",
+                 100 * std::min(1.0, done), time_.timeIndex(), time_.timeName().c_str(),
+                 str(time_.endTime()).c_str(), str(time_.deltaT(), 3).c_str(), remark.c_str(),
+                 eta / 3600, eta / 60 % 60, eta % 60);
     std::fflush(stderr);
 }
 

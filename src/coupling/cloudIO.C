@@ -116,10 +116,10 @@ particleTable readStateOf(const Time& time)
 void writeSeriesOf(const Time& time, const word& file, const List<word>& without)
 {
     List<seriesEntry> series;
-    for (const auto& [t, folder] : time.folders())
-        if (std::find(without.begin(), without.end(), folder) == without.end() &&
-            fs::exists(time.caseFolder() + "/" + folder + "/" + file))
-            series.push_back({t, folder + "/" + file});
+    for (const Time::folderOfTime& f : time.folders())
+        if (std::find(without.begin(), without.end(), f.name) == without.end() &&
+            fs::exists(time.caseFolder() + "/" + f.name + "/" + file))
+            series.push_back({time.timeOf(f), f.name + "/" + file});
     const word path = time.caseFolder() + "/" + file + ".series";
     if (!series.empty()) writeSeries(path, series);
     else fs::remove(path);

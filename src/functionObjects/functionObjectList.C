@@ -146,7 +146,8 @@ bool functionObjectList::within(const item& i) const
 scalar functionObjectList::multiples(const trigger& t) const
 {
     const Time& time = case_.time;
-    if (t.control == "runTime" || t.control == "adjustableRunTime")
+    if (t.control == "runTime") return std::floor(time.reach() / t.interval);
+    if (t.control == "adjustableRunTime")
         return std::floor((time.value() + 1e-9 * time.deltaT()) / t.interval);
     if (t.control == "clockTime") return std::floor(time.elapsedClockTime() / t.interval);
     if (t.control == "cpuTime") return std::floor(time.elapsedCpuTime() / t.interval);

@@ -45,26 +45,108 @@ record runThrough(Time& t, const std::function<scalar(scalar)>& dt = nullptr)
 
 }  // namespace
 
-TEST_CASE("steps of one length end at endTime")
+TEST_CASE("steps are deltaT whatever endTime says; the run ends with the one nearest to it")
 {
-    const testCase c("deltaT 0.03; endTime 1; writeControl timeStep; writeInterval 10;");
-    Time t = c.time();
-    const record r = runThrough(t);
-    CHECK(t.timeIndex() == 34);
-    CHECK(r.last == 1);
-    CHECK(r.written.size() == 3);
-    CHECK(r.written[0] == relative(10.0 / 34));
-    for (const scalar s : r.steps) CHECK(s == relative(1.0 / 34));
+    const auto steps = [](const word& control) {
+        const testCase c(control + "writeControl timeStep; writeInterval 10;");
+        Time t = c.time();
+        const word remark = t.remarkOnSteps();
+        const record r = runThrough(t);
+        for (const scalar s : r.steps) CHECK(s == relative(t.deltaT()));
+        CHECK(remark.empty() == (std::abs(r.last - t.endTime()) < 1e-12));
+        if (!remark.empty())
+            CHECK(remark.find("the run ends at " + str(r.last) + " s\n") != word::npos);
+        CHECK(std::abs(r.last - t.endTime()) <= t.deltaT() / 2);
+        return r;
+    };
+    CHECK(steps("deltaT 0.03; endTime 0.1;").last == 0.09);
+    CHECK(steps("deltaT 0.04; endTime 0.11;").last == 0.12);
+    CHECK(steps("deltaT 0.1; endTime 0.25;").last == 0.2);  // both are as near: the earlier one
+    CHECK(steps("deltaT 1; endTime 1;").steps.size() == 1);
+    CHECK(steps("deltaT 1; endTime 0.6;").last == 1);
+    const record r = steps("deltaT 0.03; endTime 1;");
+    CHECK(r.last == 0.99);
+    CHECK(r.written == List<scalar>{0.3, 0.6, 0.9});
+    CHECK(steps("deltaT 0.1; endTime 1;").last == 1);  // not 0.9999999999999999
+    CHECK(steps("startFrom startTime; startTime 0.99; deltaT 0.03; endTime 2.5;").last == 2.49);
 }
 
-TEST_CASE("a deltaT beyond endTime makes one step, to endTime; none is left behind it")
+TEST_CASE("a run to an earlier endTime passes the times of a longer one, bit by bit")
 {
-    const testCase c("deltaT 1; endTime 1e-3; writeControl none;");
-    Time t = c.time();
-    CHECK(runThrough(t).steps == List<scalar>{1e-3});
-    const testCase done(
-        "deltaT 1; startFrom startTime; startTime 2; endTime 2; writeControl none;");
+    for (const word control : {"deltaT 0.1;", "deltaT 0.0025;", "deltaT 0.0137;", "deltaT 0.7;",
+                               "deltaT 1e-5;", "deltaT 0.013; adjustTimeStep yes;"})
+        for (const word& kind :
+             {word("timeStep; writeInterval 1;"), word("adjustableRunTime; writeInterval 0.1;"),
+              word("none; writeTimes (0.2 0.7 1.1);")})
+        {
+            const word entries = control + "startFrom startTime; startTime 0; writeControl " + kind;
+            const auto timesTo = [&](const word& end) {
+                const testCase c(entries + "endTime " + end + ";");
+                Time t = c.time();
+                List<scalar> times;
+                while (t.run() && times.size() < 10000)
+                    t.setDeltaT(t.controlDict().get<scalar>("deltaT")), ++t,
+                        times.push_back(t.value());
+                return times;
+            };
+            const List<scalar> whole = timesTo("1.4");
+            for (const word end : {"0.7", "0.713", "1.1"})
+            {
+                List<scalar> part = timesTo(end);
+                REQUIRE(part.size() > 0);
+                const bool keeps = control.find("yes") == word::npos && kind[0] == 't';
+                if (!keeps) part.resize(std::max<size_t>(2, part.size()) - 2);  // those hit endTime
+                CHECK(std::equal(part.begin(), part.end(), whole.begin()));
+            }
+        }
+}
+
+TEST_CASE("with adjustTimeStep endTime is hit, by the last two steps")
+{
+    const word control =
+        "deltaT 0.03; adjustTimeStep yes; writeControl timeStep; writeInterval 1; endTime ";
+    const auto steps = [&](const word& end) {
+        const testCase c(control + end + ";");
+        Time t = c.time();
+        const record r = runThrough(t);
+        CHECK(r.last == t.endTime());
+        CHECK(t.remarkOnSteps().empty());
+        return r.steps;
+    };
+    const List<scalar> s = steps("0.1");
+    REQUIRE(s.size() == 4);
+    for (const size_t k : {0, 1}) CHECK(s[k] == relative(0.03));
+    for (const size_t k : {2, 3}) CHECK(s[k] == relative(0.02));
+    CHECK(steps("1e-3") == List<scalar>{1e-3});
+}
+
+TEST_CASE("a deltaT beyond the run is refused; little left behind the last step is no error")
+{
+    const word control = "startFrom latestTime; writeControl none; deltaT ";
+    CHECK_ERROR(testCase(control + "1 [min]; endTime 0.26;").time(), "twice as long as the run", 1);
+    const testCase done(control + "1; startTime 2; endTime 2;");
     CHECK(!done.time().run());
+    const testCase c(control + "0.03; endTime 1;");
+    Time t = c.time();
+    runThrough(t);
+    t.writeState();
+    c.write("0.99/particles.hdf", "x");
+    const capturedErrors errors;
+    CHECK(!c.time().run());
+    CHECK(errors.contains(
+        "endTime 1 is less than half a step after the start 0.99: there is nothing to run"));
+}
+
+TEST_CASE("steps that are shortened to hit an instant: it is said")
+{
+    const testCase c(
+        "deltaT 0.03; endTime 0.3; writeControl adjustableRunTime; writeInterval 0.1;");
+    Time t = c.time();
+    CHECK(t.remarkOnSteps() ==
+          "deltaT 0.03 s is shortened to 0.025 s: equal steps lead to the instant 0.1 s\n");
+    const record r = runThrough(t);
+    CHECK(r.last == relative(0.3));
+    CHECK(r.written.size() == 3);
 }
 
 TEST_CASE("ten steps of 0.1 end at 1, and three of them at a write instant of 0.3")
@@ -107,9 +189,13 @@ TEST_CASE("many small steps far from zero still land on the instants")
     CHECK(r.written.size() == 10);
     CHECK(r.last == 1000.001);
     for (const scalar s : r.steps) CHECK(s > 0.5e-6);
+    const testCase tenths(
+        "deltaT 0.02; endTime 0.8; writeControl adjustableRunTime; writeInterval 0.1;");
+    Time u = tenths.time();
+    CHECK(runThrough(u).written == List<scalar>{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8});
 }
 
-TEST_CASE("runTime writes at the first step past an instant; maxDeltaT limits")
+TEST_CASE("runTime writes at the step nearest to an instant; maxDeltaT limits")
 {
     const testCase c(
         "deltaT 0.04; maxDeltaT 0.03; endTime 0.3; writeControl runTime;"
@@ -117,10 +203,14 @@ TEST_CASE("runTime writes at the first step past an instant; maxDeltaT limits")
     Time t = c.time();
     CHECK(t.deltaT() == 0.03);
     const record r = runThrough(t, [](scalar) { return 0.04; });
-    REQUIRE(r.written.size() == 3);
-    CHECK(r.written[0] == relative(0.12));
-    CHECK(r.written[1] == relative(0.21));
-    CHECK(r.written[2] == 0.3);
+    CHECK(r.written == List<scalar>{0.09, 0.21, 0.3});
+    const testCase between("deltaT 0.03; endTime 0.1; writeControl runTime; writeInterval 0.1;");
+    Time u = between.time();
+    CHECK(runThrough(u).written == List<scalar>{0.09});  // the last step is written
+    const testCase adjusted(
+        "deltaT 0.03; adjustTimeStep yes; endTime 0.3; writeControl runTime; writeInterval 0.1;");
+    Time v = adjusted.time();
+    CHECK(runThrough(v).written == List<scalar>{0.12, 0.21, 0.3});  // the first past it
 }
 
 TEST_CASE("clockTime and none")
@@ -325,6 +415,57 @@ TEST_CASE("folder names")
     CHECK(t.timeName() == "0.500000001");
     const testCase f("deltaT 1; endTime 1; writeControl none; timeFormat fixed; timePrecision 4;");
     CHECK(f.time().timeName(0.5) == "0.5000");
+}
+
+TEST_CASE("folder names tell the times, after a restart too")
+{
+    const word control =
+        "startFrom latestTime; deltaT 2e-6; writeControl timeStep; writeInterval 1; endTime ";
+    const testCase c(control + "1.000004;");
+    const auto goOn = [&](const word& more) {
+        c.write("system/controlDict", control + more);
+        Time t = c.time();
+        List<word> names{t.timeName()};
+        while (t.run())
+        {
+            t.setDeltaT(2e-6), ++t, t.writeState();
+            c.write(t.timeName() + "/particles.hdf", "x");
+            names.push_back(t.timeName());
+        }
+        return names;
+    };
+    c.write("1/particles.hdf", "x");
+    c.write("1/uniform/time", "value 1; index 100; deltaT 0.01;");
+    const capturedErrors errors;
+    CHECK(goOn("1.000004;") == List<word>{"1", "1.000002", "1.000004"});
+    CHECK(goOn("1.000008;") == List<word>{"1.000004", "1.000006", "1.000008"});
+    CHECK(goOn("1.00001;") == List<word>{"1.000008", "1.00001"});
+    CHECK(goOn("1.00001; timePrecision 1;") == List<word>{"1.00001"});
+    Time post = Time::postProcess(c.path);
+    for (const Time::folderOfTime& f : post.folders())
+    {
+        post.goTo(f.t);
+        CHECK(post.timeName() == f.name);
+    }
+}
+
+TEST_CASE("the time of a state is that of its folder to all digits")
+{
+    const testCase c(
+        "deltaT 0.013; endTime 0.039; writeControl timeStep; writeInterval 1; timePrecision 1;");
+    const capturedErrors errors;
+    Time t = c.time();
+    while (t.run()) t.setDeltaT(0.013), ++t, t.writeState();
+    c.write("0.333333/uniform/time", "value 0.33333333333333331; index 3; deltaT 0.1;");
+    c.write("0.5/uniform/time", "value 0.7; index 3; deltaT 0.1;");  // of another time
+    c.write("0.6/uniform/time", "value 0.6; index");
+    List<word> names;
+    List<scalar> times;
+    const Time post = Time::postProcess(c.path);
+    for (const Time::folderOfTime& f : post.folders())
+        names.push_back(f.name), times.push_back(post.timeOf(f));
+    CHECK(names == List<word>{"0.013", "0.026", "0.039", "0.333333", "0.5", "0.6"});
+    CHECK(times == List<scalar>{0.013, 0.026, 0.039, 1.0 / 3, 0.5, 0.6});
 }
 
 TEST_CASE("mistakes in controlDict")

@@ -51,7 +51,8 @@ TEST_CASE("write controls")
     f.end();
     CHECK(timesOf(t, "a/0/minMax.dat").size() == 9);
     CHECK(timesOf(t, "b/0/minMax.dat") == List<scalar>{0, 0.5, 1});
-    CHECK(timesOf(t, "c/0/minMax.dat") == List<scalar>{0, 0.375, 0.625, 1});
+    CHECK(timesOf(t, "c/0/minMax.dat") ==
+          List<scalar>{0, 0.25, 0.625, 0.875});  // nearest to 0.3, 0.6, 0.9
     CHECK(timesOf(t, "d/0/minMax.dat") == List<scalar>{0, 0.375, 0.75});
     CHECK(!isFile(t.path + "/postProcessing/e/0/minMax.dat"));
     CHECK(timesOf(t, "f/0/minMax.dat") == List<scalar>{0.25, 0.375, 0.5});

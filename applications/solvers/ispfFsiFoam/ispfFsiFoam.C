@@ -62,7 +62,7 @@ int run(const argList& args)
     progress bar(time);
     bool unresolved = false;  // once is enough to say so
 
-    info() << "\nStarting time loop\n\n";
+    info() << time.remarkOnSteps() << "\nStarting time loop\n\n";
     functions.start();
     while (time.run())
     {
