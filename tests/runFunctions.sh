@@ -61,7 +61,7 @@ run 'runApplication noSuchProgram; echo after' && fail "a missing program does n
 says "noSuchProgram is not built"
 
 run 'restore0Dir; touch 0/extra; restore0Dir' && [ "$(ls 0)" = U ] || fail "restore0Dir"
-mkdir -p 0.5 1e-05 10 constant 2D postProcessing/probes; touch dx.hdf.series
+mkdir -p 0.5 1e-05 10 constant 2D postProcessing/probes; touch dx.hdf.series particles.vtp.series
 run cleanTimeDirectories || fail cleanTimeDirectories
 [ "$(echo *)" = "0 0.orig 2D constant log.badOne log.goodOne log.goodOne.two log.muteOne postProcessing system" ] ||
     fail "cleanTimeDirectories left: $(echo *)"
