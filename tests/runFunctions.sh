@@ -7,6 +7,7 @@ failures=0
 fail() { echo "  FAILED: $1"; failures=$((failures+1)); }
 scratch=$(mktemp -d); trap 'rm -rf "$scratch"' EXIT
 mkdir -p "$scratch/bin" "$scratch/case/system" "$scratch/case/0.orig"
+ln -s "$(cd "${ISPF_BIN:-$tools/../../build/${OPT:-Release}/bin}" && pwd)/ispfDictionary" "$scratch/bin/"
 cd "$scratch/case"
 printf 'application     goodOne;   // a comment\n' > system/controlDict
 echo U > 0.orig/U
@@ -59,6 +60,33 @@ says "killedOne was stopped by SIGKILL"
 rm log.stoppedOne log.killedOne
 run 'runApplication noSuchProgram; echo after' && fail "a missing program does not stop the script"
 says "noSuchProgram is not built"
+
+# entries as programs read them: the last of several, none in comments, those of dictionaries and of included files
+mkdir entries; cd entries
+cat > dict <<'END'
+/*
+a 0;   never
+*/
+a 1;
+// a 2;
+b { a 3; c "x y"; }
+a 4; // counts
+#include "more"
+END
+echo "d 7;" > more
+run 'getEntry dict a; getEntry dict b.a; getEntry dict b.c; getEntry dict d' || fail "getEntry: $(cat "$scratch/out")"
+[ "$(cat "$scratch/out")" = $'4\n3\nx y\n7' ] || fail "getEntry: $(cat "$scratch/out")"
+cp dict before
+run 'setEntry dict a 5 && setEntry dict b.c "(1 2)" && getEntry dict a && getEntry dict b.c' || fail "setEntry: $(cat "$scratch/out")"
+[ "$(cat "$scratch/out")" = $'5\n(1 2)' ] || fail "setEntry: $(cat "$scratch/out")"
+[ "$(diff before dict | grep -c '^>')" = 2 ] && grep -q "^a 5; // counts" dict || fail "setEntry: $(diff before dict)"
+for wrong in "setEntry dict n 1" "getEntry dict n" "getEntry nothing a" 'setEntry dict a "(1"'; do
+    cp dict before; run "$wrong" && fail "accepted: $wrong"
+    cmp -s before dict && grep -q "FATAL" "$scratch/out" || fail "$wrong: $(cat "$scratch/out")"
+done
+says "would break"
+(mv "$scratch/bin/ispfDictionary" "$scratch/kept"; run 'getEntry dict a' && fail "no ispfDictionary"; says "ispfDictionary is not built"; mv "$scratch/kept" "$scratch/bin/ispfDictionary")
+cd ..; rm -r entries
 
 run 'restore0Dir; touch 0/extra; restore0Dir' && [ "$(ls 0)" = U ] || fail "restore0Dir"
 mkdir -p 0.5 1e-05 10 constant 2D postProcessing/probes; touch dx.hdf.series particles.vtp.series

@@ -6,7 +6,7 @@ set -uo pipefail
 . "$(dirname "$0")/cases/functions"
 
 newCase membrane uncontrolled
-setEntry system/sphSolution relaxation 0
+setEntry system/sphSolution volumeLedger.relaxation 0
 echo "monolithic { volumeFeedback 0; }" >> system/sphSolution
 place
 # keeps steps
