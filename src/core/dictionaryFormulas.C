@@ -18,6 +18,26 @@ token resultToken(const token& at, token::kindType kind, const word& text)
     return t;
 }
 
+// Without those of C++.  The brace that ends the formula ends a comment too, as in OpenFOAM
+word withoutComments(const word& formula)
+{
+    word text;
+    for (size_t i = 0; i < formula.size();)
+    {
+        const bool line = formula.compare(i, 2, "//") == 0,
+                   block = formula.compare(i, 2, "/*") == 0;
+        if (!line && !block)
+        {
+            text += formula[i++];
+            continue;
+        }
+        text += ' ';
+        const size_t end = line ? formula.find('\n', i) : formula.find("*/", i + 2);
+        i = end == word::npos ? formula.size() : end + (line ? 0 : 2);
+    }
+    return text;
+}
+
 // OpenFOAM compiles #calc as C++, where 5/2 is 2; here it is 2.5
 bool isCutInCpp(const word& formula, scalar value)
 {
@@ -34,7 +54,7 @@ List<token> dictionaryParser::calculated(const token& directive, source& in)
         fail("#" + directive.text + " wants a formula, #" + directive.text + " \"...\" or #" +
                  directive.text + "{ ... }, found " + formula.described() + ".",
              formula);
-    const word text = expanded(formula.text, formula, true);
+    const word text = expanded(withoutComments(formula.text), formula, true);
     spend(10 + text.size() / 16, formula);
     const List<scalar> result = evaluated(text, formula.where(here().scope));
     if (result.size() == 1 && directive.text == "calc" && isCutInCpp(text, result[0]))

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <muParser.h>
 #include <numbers>
 
@@ -32,6 +33,18 @@ scalar vectorComponent(scalar x, scalar y, scalar z)
     return vectorScale * (component == 0 ? x : component == 1 ? y : z);
 }
 
+// In [0, 1), the same at each call with this seed, as OpenFOAM's formulas have it: the second number of the
+// linear congruential generator of 48 bits, the first in the digits below
+scalar randomNumber(scalar seed)
+{
+    if (!std::isfinite(seed)) return seed;
+    const std::uint32_t s = std::uint32_t(std::int64_t(std::fmod(std::round(seed), 4294967296.0)));
+    unsigned short state[3] = {0x330E, std::uint16_t(s), std::uint16_t(s >> 16)};
+    constexpr scalar range = 2147483648.0;
+    const scalar first = scalar(nrand48(state)), second = scalar(nrand48(state));
+    return (second + first / range) / range;
+}
+
 scalar truth(bool b)
 {
     return b ? 1 : 0;
@@ -58,8 +71,13 @@ void defineFunctions(mu::Parser& p)
         p.DefineFun(name, f([](scalar x) { return std::trunc(x); }));
     for (const char* name : {"scalar", "double"}) p.DefineFun(name, f([](scalar x) { return x; }));
     p.DefineFun("bool", f([](scalar x) { return truth(x != 0); }));
-    p.DefineFun("pos", f([](scalar x) { return truth(x >= 0); }));
+    // OpenFOAM's: 0 is neither positive nor negative, and its sign is +
+    p.DefineFun("pos", f([](scalar x) { return truth(x > 0); }));
     p.DefineFun("neg", f([](scalar x) { return truth(x < 0); }));
+    p.DefineFun("pos0", f([](scalar x) { return truth(x >= 0); }));
+    p.DefineFun("neg0", f([](scalar x) { return truth(x <= 0); }));
+    p.DefineFun("sign", f([](scalar x) { return x >= 0 ? scalar(1) : scalar(-1); }));
+    p.DefineFun("rand", f(randomNumber));
     p.DefineFun("pow", g([](scalar x, scalar y) { return std::pow(x, y); }));
     p.DefineFun("hypot", g([](scalar x, scalar y) { return std::hypot(x, y); }));
     for (const char* name : {"mod", "fmod"})
@@ -87,7 +105,9 @@ word plainFormula(word text)
         text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
     for (const char* space : {"Foam::", "std::", "constant::mathematical::"})
         replaceAll(text, space, "");
+    for (size_t i = text.find("( "); i != word::npos; i = text.find("( ", i)) text.erase(i + 1, 1);
     replaceAll(text, "pi()", "pi");
+    replaceAll(text, "rand()", "rand(0)");
     return text;
 }
 

@@ -49,17 +49,47 @@ TEST_CASE("#calc, #eval and ${{ }}: formulas with macros")
     CHECK(d.subDict("s").subDict("inner").get<scalar>("a") == 34);
 }
 
+TEST_CASE("comments in formulas")
+{
+    const dictionary d = parsed(R"dict(
+        x 4;
+        a #eval{ 1 + 2 // c
+        };
+        b #eval{ 3 /* c */ + 4 };
+        c #eval "3 /* c */ + 4 // d";
+        d #eval{ 1 + $x // $undefined
+        + 1 };
+        e #calc #{ 8 /* two
+            lines / */ / 2 #};
+        f ${{ 1 + 2 // c }};
+        g #eval{ 1 /* + 1 };
+        list (#eval{ 1 // one
+        } 2);
+    )dict");
+    for (const auto& [key, value] : std::map<word, scalar>{
+             {"a", 3}, {"b", 7}, {"c", 7}, {"d", 6}, {"e", 4}, {"f", 3}, {"g", 1}})
+        CHECK(d.get<scalar>(key) == value);
+    CHECK(d.get<List<scalar>>("list") == List<scalar>{1, 2});
+}
+
 TEST_CASE("functions that users of OpenFOAM expect in formulas")
 {
     const auto value = [](const word& formula) {
         return parsed("a #eval{ " + formula + " };").get<scalar>("a");
     };
+    // foamDictionary gives these
+    CHECK(value("pos0(0) + 10*pos(0) + 100*neg0(0) + 1000*neg(0) + 10000*sign(-0.0)") == 10101);
+    CHECK(value("pos0(-1) + pos(2) + neg0(3) + neg(-1) + sign(-2)") == 1);
+    CHECK(value("rand()") == relative(0.749902, 1e-6));
+    CHECK(value("rand( ) - rand(0)") == 0);
+    CHECK(value("rand(3)") == relative(0.863673, 1e-6));
+    CHECK(value("rand(7.9)") == relative(0.386626, 2e-6));
     CHECK(value("sqrt(9) + cbrt(8) + mag(-2) + magSqr(3) + abs(-1)") == 17);
     CHECK(value("min(3, 1) + max(2, 5) + hypot(3, 4) + pow(2, 10)") == 1035);
     CHECK(value("radToDeg(atan2(1, 1)) + radToDeg(asin(1))") == relative(135));
     CHECK(value("floor(-0.5) + ceil(0.2) + round(2.6) + trunc(-1.7)") == 2);
     CHECK(value("log(exp(2)) + log10(1000) + ln(exp(1))") == relative(6));
-    CHECK(value("pos(0) + neg(-1) + sign(-3) + bool(2*pi())") == 2);
+    CHECK(value("pos(1) + neg(-1) + sign(-3) + bool(2*pi())") == 2);
     CHECK(value("10 % 4 + mod(7, 4) + 2^3") == 13);
     CHECK(value("1 < 2 && !(3 == 4) || 0") == 1);
     CHECK(value("1 >= 1 ? (2 != 2 ? 5 : 6) : 7") == 6);
