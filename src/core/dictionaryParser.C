@@ -12,6 +12,7 @@ namespace
 
 constexpr size_t depthLimit = 200;         // of nested dictionaries; far beyond any sensible case
 constexpr size_t spendingLimit = 2000000;  // words that macros and includes may add
+constexpr size_t patternLimit = size_t(1) << 26;  // bytes of keys that are regular expressions
 
 }  // namespace
 
@@ -42,6 +43,17 @@ void dictionaryParser::spend(size_t weight, const token& at)
         fail("Macros and included files let this dictionary grow beyond " +
                  std::to_string(spendingLimit) + " words.",
              at);
+}
+
+// Each takes its memory
+void dictionaryParser::spendOn(const regularExpression& pattern, const token& key)
+{
+    patternBytes_ += pattern.bytes();
+    if (patternBytes_ > patternLimit)
+        fail("The keys of this dictionary that are regular expressions take more than " +
+                 std::to_string(patternLimit >> 20) +
+                 " MB. Simplify them, or write the keys themselves.",
+             key);
 }
 
 void dictionaryParser::parseFile(const word& path)
@@ -198,7 +210,7 @@ void dictionaryParser::parseValueTokens(const token& key, source& in, List<token
 // Makes room for an entry; null if an earlier one of that key stays
 dictionaryEntry* dictionaryParser::free(const token& key, bool isDict)
 {
-    if (keyPattern(key)) spend(1000, key);  // each takes its memory
+    if (const auto pattern = keyPattern(key)) spendOn(*pattern, key);
     if (const dictionaryEntry* old = here().exact(key.text))
     {
         const word twice = "The entry '" + key.text + "' stands twice, first at line " +
@@ -243,6 +255,7 @@ void dictionaryParser::merge(dictionary::content& to, const dictionary::content&
         key.kind = f.quoted ? token::quoted : token::plain;
         key.text = f.key, key.line = f.line, key.file = f.file;
         spend(8 + f.value.size(), key);
+        if (f.pattern) spendOn(*f.pattern, key);
         dictionaryEntry* e = to.exact(f.key);
         if (!e || !e->isDict() || !f.isDict()) e = &to.renewed(key);
         e->lineEnd = f.lineEnd;

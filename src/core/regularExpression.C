@@ -24,6 +24,11 @@ bool regularExpression::matches(const word& whole) const
     return re2::RE2::FullMatch(whole, *expression_);
 }
 
+size_t regularExpression::bytes() const
+{
+    return 1500 + 16 * size_t(expression_->ProgramSize());  // measured: 1300 and 11
+}
+
 bool regularExpression::isOne(const word& text)
 {
     return text.find_first_of(".*+?()[]{}|^$\\") != word::npos;

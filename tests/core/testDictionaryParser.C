@@ -108,6 +108,23 @@ TEST_CASE("what is refused says so, with its line")
     CHECK(parsed("code #{ a; } \"b #};").tokens("code")[0] == " a; } \"b ");
 }
 
+TEST_CASE("thousands of keys that are patterns are read; what would take all memory is refused")
+{
+    const auto patterns = [](int n) {
+        word text;
+        for (int k = 0; k < n; ++k)
+            text += "\"k" + std::to_string(k) + ".*\" " + std::to_string(k) + "; ";
+        return text;
+    };
+    const dictionary d = parsed(patterns(5000));
+    CHECK(d.get<label>("k17x") == 17);
+    CHECK(d.get<label>("k4999x") == 4999);
+    CHECK_ERROR(parsed(patterns(60000)), "take more than 64 MB", 1);
+    word copies = "a {" + patterns(4000) + "}";
+    for (int k = 0; k < 15; ++k) copies += " b" + std::to_string(k) + " { $a; }";
+    CHECK_ERROR(parsed(copies), "take more than 64 MB", 1);
+}
+
 TEST_CASE("#codeStream is carried along in a value, and refused where the value is wanted")
 {
     const word text = "a\n#codeStream { code #{ os << $x; #}; libs (\"$y\" z); };";
