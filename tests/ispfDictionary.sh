@@ -87,6 +87,36 @@ sed 's/1e-6/0.000001/; s/endTime *\([0-9.]*\)/endTime \1e0/' original > respelt;
 printf 'FoamFile { version 2.0; class dictionary; }\na 1;\n' > headed
 [ "$(ispfDictionary headed -entry FoamFile | tr -s ' \n' ' ')" = "FoamFile { version 2.0; class dictionary; } " ] || fail "the header: $(ispfDictionary headed -entry FoamFile 2>&1)"
 [ "$(ispfDictionary headed -entry FoamFile.class -value)" = dictionary ] || fail "of the header: $(ispfDictionary headed -entry FoamFile.class -value 2>&1)"
+# the header is edited like any dictionary, and stands first where there was none
+header() { # what it then is, arguments
+    local wanted=$1; shift
+    ispfDictionary edited "$@" > log 2>&1 || fail "$*: $(cat log)"
+    [ "$(tr -s ' \n' ' ' < edited)" = "$wanted " ] || fail "$*: $(cat edited)"
+}
+cp headed edited
+header 'FoamFile { version 2.0; class other; } a 1;' -entry FoamFile.class -set other
+header 'FoamFile { version 2.0; class other; object foo; } a 1;' -entry FoamFile.object -add foo
+[ "$(ispfDictionary edited -entry FoamFile.object -value)" = foo ] || fail "header: $(cat edited)"
+header 'FoamFile { class other; object foo; } a 1;' -entry FoamFile.version -remove
+grep -qi warning log && fail "removed, yet: $(cat log)"
+header 'FoamFile { version 2.0; } a 1;' -entry FoamFile -set '{ version 2.0; }'
+header 'a 1;' -entry FoamFile -remove
+printf '// remark\na 1;\n' > edited
+header '// remark FoamFile { object foo; } a 1;' -entry FoamFile.object -set foo
+ispfDictionary edited -entry FoamFile.format -set runes > log 2>&1 && fail "format runes is accepted"
+grep -q "ascii binary" log || fail "no valid formats are listed: $(cat log)"
+# lines of a file that end with CR LF go on to do so
+printf 'FoamFile\r\n{\r\n    version 2.0;\r\n}\r\na { b 1; } // c\r\nd 2; // e\r\n' > dos
+dos() {
+    cp dos edited; ispfDictionary edited "$@" > log 2>&1 || fail "CR LF, $*: $(cat log)"
+    [ "$(grep -c '' edited)" = "$(grep -c $'[^\r]\r$' edited)" ] && ! cmp -s dos edited || fail "CR LF, $*: $(cat -A edited)"
+}
+dos -entry a.c -add 5
+dos -entry f -set 7
+dos -entry g.h -set "(1 2)"
+dos -entry d -remove
+dos -entry FoamFile.object -set foo
+dos -entry k -set $'{\n l 1;\n m 2;\n}'
 [ -z "$(ispfDictionary original -diff original)" ] || fail "-diff of a file and itself"
 # an edit is of its own entry, not of a pattern that matches it, and of all parts of a dictionary
 cat > patterns <<'END'

@@ -18,6 +18,7 @@ void dictionaryText::parse()
     top_ = {};
     includes_.clear();
     const List<token> tokens = tokenize(text_, file_);
+    firstToken_ = std::min<size_t>(tokens[0].first, text_.size());
     size_t i = 0;
     top_.isDict = true;
     top_.last = top_.valueLast = text_.size();
@@ -257,10 +258,25 @@ const dictionaryText::item* dictionaryText::miscounted(const item& in) const
     return nullptr;
 }
 
+namespace
+{
+
+// As the file's first line ends: with CR LF, or with LF
+word withLineEndsOf(const word& file, const word& text)
+{
+    const size_t end = file.find('\n');
+    if (end == word::npos || end == 0 || file[end - 1] != '\r') return text;
+    word lines;
+    for (const char c : text) lines += c == '\n' && !lines.ends_with('\r') ? "\r\n" : word(1, c);
+    return lines;
+}
+
+}  // namespace
+
 void dictionaryText::replace(size_t first, size_t last, const word& by)
 {
     const word before = text_;
-    text_.replace(first, last - first, by);
+    text_.replace(first, last - first, withLineEndsOf(text_, by));
     try
     {
         parse();
@@ -342,10 +358,13 @@ bool dictionaryText::append(const word& name, const word& value, int outwards)
 void dictionaryText::insert(const item& parent, const word& key, const word& value, bool atEnd)
 {
     const bool top = &parent == &top_;
+    if (top && (key == "FoamFile" || key.rfind("FoamFile.", 0) == 0))  // the header comes first
+        return replace(firstToken_, firstToken_, statement(key, value, "") + "\n");
     size_t at = parent.items.empty() ? parent.valueFirst : parent.items.back().last;
     if (top && atEnd) at = text_.find_last_not_of(" \t\r\n") + 1;
     // Behind a comment that ends the line, but not beyond the closing brace
-    const size_t lineEnd = std::min(text_.find('\n', at), text_.size());
+    size_t lineEnd = std::min(text_.find('\n', at), text_.size());
+    if (lineEnd > at && text_[lineEnd - 1] == '\r') --lineEnd;
     const size_t next = std::min(text_.find_first_not_of(" \t\r", at), text_.size());
     if (next >= lineEnd || text_.compare(next, 2, "//") == 0) at = lineEnd;
     const word margin(4 * parent.depth, ' ');

@@ -47,6 +47,16 @@ const dictionary* holderOf(const dictionary& d, const word& name, word& key)
     return nullptr;
 }
 
+const word header = "FoamFile";
+
+// Likewise, of the file: its header counts as a dictionary
+const dictionary* holderInFile(const dictionary& d, const word& name, word& key)
+{
+    if (const dictionary* holder = holderOf(d, name, key)) return holder;
+    if (name.rfind(header + ".", 0) != 0) return nullptr;
+    return holderOf(d.header(), name.substr(header.size() + 1), key);
+}
+
 word indented(const word& lines)
 {
     word text;
@@ -137,12 +147,13 @@ bool holds(const dictionaryText& text, const word& path, const word& name, const
     if (value.find_first_of(toDict ? "$#" : "$#{") != word::npos) return true;
     const dictionary d = dictionary::fromPart(text.text(), path);
     word key;
-    const dictionary* holder = holderOf(d, name, key);
+    const dictionary* holder = holderInFile(d, name, key);
     if (toDict)  // what an included file brings may be merged into it
-        return holder && holder->isDict(key) &&
-               differences(dictionary::fromPart("a " + value, path).subDict("a"),
-                           holder->subDict(key))
-                   .empty();
+    {
+        const dictionary wanted = dictionary::fromPart("a " + value, path).subDict("a");
+        if (name == header) return differences(wanted, d.header()).empty();
+        return holder && holder->isDict(key) && differences(wanted, holder->subDict(key)).empty();
+    }
     return holder && !holder->isDict(key) &&
            wordsOf(holder->tokenList(key)) == wordsOf(tokenize(value, path));
 }
@@ -167,7 +178,7 @@ void edit(const argList& args, dictionaryText& text, const word& path)
     {
         text.remove(name);
         word key;
-        if (holderOf(dictionary::fromPart(text.text(), path), name, key))
+        if (holderInFile(dictionary::fromPart(text.text(), path), name, key))
             warning("There still is an entry '" + name +
                     "': a pattern matches it, or a macro or an included file brings it");
     }
@@ -205,15 +216,13 @@ void printExpanded(const argList& args, const word& path)
     }
     const word name = dotted(args.option("entry"));
     word key;
-    const dictionary* holder = holderOf(d, name, key);
-    if (!holder && name.rfind("FoamFile.", 0) == 0)
-        holder = holderOf(d.header(), name.substr(name.find('.') + 1), key);
-    if (!holder && name == "FoamFile" && !d.header().keys().empty())
+    const dictionary* holder = holderInFile(d, name, key);
+    if (!holder && name == header && !d.header().keys().empty())
     {
         word lines;
         for (const word& k : d.header().keys()) lines += d.header().toString(k);
         info() << (args.found("keywords") ? join(d.header().keys(), "\n") + "\n"
-                                          : "FoamFile\n{\n" + indented(lines) + "}\n");
+                                          : header + "\n{\n" + indented(lines) + "}\n");
         return;
     }
     if (!holder)
