@@ -169,9 +169,14 @@ dict "shape box; min (0 0 0); max (1.04e-2 1.04e-2 1.04e-2);"
 generateParticles > out 2>&1 && grep -q "water miss its volume by -.* bodyFitted" out || fail "spacing and box: $(cat out)"
 
 # Zones that overlap: who takes how much of whom, and where
-shape "$box" "" "ice { phase fluid; shape box; min (0.008 0 0); max (0.012 0.01 0.01); }"
+ice='ice { phase fluid; shape box; min (0.008 0 0); max (0.012 0.01 0.01);'
+shape "$box" "" "$ice }"
+refused "ice half in the water" "Zone ice lies partly in zone water, which comes before it, and takes 2e-07 m3 of it around (0.009 0.005 0.005)" "mayOverlap yes" "particleDict.zones.ice at line"
+shape "$box" "" "$ice mayOverlap yes; }"
 generateParticles > out 2>&1 || fail "overlap: $(tail -n 5 out)"
 grep -q "overlap: ice takes 2e-07 m3 of water, which comes before it, around (0.009 0.005 0.005)" out || fail "overlap: $(cat out)"
+shape "$box" "" "pea { phase fluid; shape sphere; centre (0.005 0.005 0.005); radius 0.003; }"
+generateParticles > out 2>&1 && grep -q "overlap: pea takes" out || fail "pea: $(tail -n 5 out)"
 # A rigid body is a hole with a patch of its own name
 shape "$box" "" "pillar { phase rigid; shape box; min (0.004 0 0); max (0.006 0.01 0.01); }"
 refused "rigid zone without a patch" "belongs to patch pillar" "Valid patches are: walls"

@@ -51,43 +51,45 @@ void setLayers(const zoneGeometry& geometry, const placedParticles& placed,
             least = least == 0 ? layers[i] : std::min(least, layers[i]);
 }
 
-// What a zone takes of others before it, by its own particles.  A particle beside a face that two zones share
-// lies in one of them only
-void reportOverlaps(const zoneGeometry& geometry, const placedParticles& placed)
+}  // namespace
+
+// By its own particles.  One beside a face that two zones share lies in one of them only
+List<zoneOverlap> zoneOverlaps(const zoneGeometry& geometry, const placedParticles& placed)
 {
-    struct overlap
-    {
-        label n = 0;
-        vector middle = vector::Zero();
-    };
+    constexpr scalar sag = 0.01;  // of a zone's particles
     const label n = label(placed.x.size());
     List<List<label>> claims(n);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i) claims[i] = geometry.claims(placed.x[i]);
     });
-    std::map<std::pair<label, label>, overlap> taken;
+    std::map<std::pair<label, label>, zoneOverlap> taken;
+    List<label> own(geometry.zones().size(), 0), shared = own;
     for (label i = 0; i < n; ++i)
     {
-        const auto own = std::find(claims[i].rbegin(), claims[i].rend(), placed.zone[i]);
-        for (const label zone : std::set<label>(own, claims[i].rend()))
-            if (zone >= 0 && zone != placed.zone[i] && placed.strip[i] < 0)
-            {
-                overlap& o = taken[{zone, placed.zone[i]}];
-                ++o.n, o.middle += placed.x[i];
-            }
+        const label zone = placed.zone[i];
+        if (placed.strip[i] >= 0) continue;
+        ++own[zone];
+        const auto at = std::find(claims[i].rbegin(), claims[i].rend(), zone);
+        std::set<label> others(at, claims[i].rend());
+        others.erase(zone), others.erase(-1);
+        shared[zone] += !others.empty();
+        for (const label other : others)
+        {
+            zoneOverlap& o = taken[{other, zone}];
+            o.zone = zone, o.of = other;
+            o.volume += std::pow(geometry.dx(), geometry.nDims()), o.middle += placed.x[i];
+        }
     }
-    for (const auto& [zones, o] : taken)
+    List<zoneOverlap> all;
+    for (auto& [zones, o] : taken)
     {
-        const vector c = o.middle / o.n;
-        info() << "zones overlap: " << geometry.zones()[zones.second].name << " takes "
-               << str(o.n * std::pow(geometry.dx(), geometry.nDims()), 4)
-               << (geometry.nDims() == 3 ? " m3" : " m2") << " of "
-               << geometry.zones()[zones.first].name << ", which comes before it, around ("
-               << str(c[0], 4) << " " << str(c[1], 4) << " " << str(c[2], 4) << ")\n";
+        o.middle *= std::pow(geometry.dx(), geometry.nDims()) / o.volume;
+        const scalar part = scalar(shared[o.zone]) / own[o.zone];
+        o.crosses = part > sag && part < 1 - sag;
+        all.push_back(o);
     }
+    return all;
 }
-
-}  // namespace
 
 List<zoneQuality> packingQuality(const zoneGeometry& geometry, const placedParticles& placed,
                                  scalar support)
@@ -176,7 +178,11 @@ void reportPacking(const zoneGeometry& geometry, const placedParticles& placed, 
                     (bodyFitted ? "a finer dx; a zone of few particles cannot hold half of one"
                                 : "a dx that divides its lengths, or placement bodyFitted"));
     }
-    reportOverlaps(geometry, placed);
+    for (const zoneOverlap& o : zoneOverlaps(geometry, placed))
+        out << "zones overlap: " << geometry.zones()[o.zone].name << " takes " << str(o.volume, 4)
+            << (geometry.nDims() == 3 ? " m3" : " m2") << " of " << geometry.zones()[o.of].name
+            << ", which comes before it, around (" << str(o.middle[0], 4) << " "
+            << str(o.middle[1], 4) << " " << str(o.middle[2], 4) << ")\n";
     label strip = 0;
     for (const label p : placed.strip) strip += p >= 0;
     out << "beyond open faces " << strip << ", rigid wall " << placed.rigid.size() << ", together "

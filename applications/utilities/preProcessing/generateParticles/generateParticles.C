@@ -45,6 +45,7 @@ int main(int argc, char** argv)
             dict.bodyFitted ? placeBodyFitted(geometry, outside, dict.support)
                             : placeOnLattice(geometry, outside, dict.origin, dict.support);
         reportPacking(geometry, placed, dict.support, dict.bodyFitted);
+        dict.checkOverlaps(zoneOverlaps(geometry, placed));
         writeCase(folder, geometry, placed, dict.initial(), dict.sources, dict.stripLayers);
         warnOfOldTimes(folder);
         info() << "End" << std::endl;

@@ -310,6 +310,7 @@ void particleDict::addZone(const word& name, List<body>& bodies)
     List<body> own = dict.found("file") ? cadBodies(name, dict) : List<body>{shapeBody(dict)};
     const zoneInfo zone = readZone(name, dict);
     const bool rigid = zone.phase == phaseType::rigid;
+    if (!rigid && dict.getOrDefault("mayOverlap", false)) mayOverlap_.insert(name);
     for (body& b : own)
     {
         nameByPlane(b.surface);
@@ -345,6 +346,20 @@ zoneGeometry particleDict::geometry()
         if (dict_.where(key).file != dict_.path()) dict_.tokens(key);
     dict_.checkAllRead();
     return zoneGeometry(zones_, patches_, std::move(bodies), planes_, defaultPatch_, dx, nDims);
+}
+
+void particleDict::checkOverlaps(const List<zoneOverlap>& overlaps) const
+{
+    for (const zoneOverlap& o : overlaps)
+        if (const word& name = zones_[o.zone].name; o.crosses && !mayOverlap_.count(name))
+            dict_.subDict("zones").fail(
+                name, "Zone " + name + " lies partly in zone " + zones_[o.of].name +
+                          ", which comes before it, and takes " + str(o.volume, 4) +
+                          (nDims == 3 ? " m3" : " m2") + " of it around (" + str(o.middle[0], 4) +
+                          " " + str(o.middle[1], 4) + " " + str(o.middle[2], 4) +
+                          "). Let them meet without overlap, or lie one within the other; or say "
+                          "'mayOverlap yes;' in zone " +
+                          name);
 }
 
 }  // namespace ispf
