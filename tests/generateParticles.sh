@@ -177,6 +177,17 @@ generateParticles > out 2>&1 || fail "overlap: $(tail -n 5 out)"
 grep -q "overlap: ice takes 2e-07 m3 of water, which comes before it, around (0.009 0.005 0.005)" out || fail "overlap: $(cat out)"
 shape "$box" "" "pea { phase fluid; shape sphere; centre (0.005 0.005 0.005); radius 0.003; }"
 generateParticles > out 2>&1 && grep -q "overlap: pea takes" out || fail "pea: $(tail -n 5 out)"
+# Layers that meet at cyclic planes: two particles, pressed into a corner, stayed in one place
+for size in "0.1 0.03" "0.15 0.02"; do
+    read -r length thick <<< "$size"
+    mkdir -p "$scratch/layers"/{constant,system}
+    echo "dx 0.01; nDims 2; zones { w { phase fluid; shape box; min (0 0.05 0); max ($length 0.2 0); }
+        s { phase solid; shape box; min (0 $(awk "BEGIN { print 0.05 - $thick }") 0); max ($length 0.05 0); }
+        k { phase clamped; shape box; min (0 $(awk "BEGIN { print 0.03 - $thick }") 0); max ($length $(awk "BEGIN { print 0.05 - $thick }") 0); } }" > "$scratch/layers/system/particleDict"
+    echo "walls { type wall; } c { type cyclic; point (0 0 0); separation ($length 0 0); }" > "$scratch/layers/constant/boundary"
+    generateParticles -case "$scratch/layers" > out 2>&1 || fail "layers $size: $(tail -n 5 out)"
+    awk '$1 == "s" { exit !($2*1e4 == $3 && $(NF - 1) > 0.6) }' out || fail "layers $size: $(grep '^s ' out)"
+done
 # A rigid body is a hole with a patch of its own name
 shape "$box" "" "pillar { phase rigid; shape box; min (0.004 0 0); max (0.006 0.01 0.01); }"
 refused "rigid zone without a patch" "belongs to patch pillar" "Valid patches are: walls"

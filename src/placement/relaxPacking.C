@@ -21,6 +21,7 @@ constexpr scalar narrowRate = 0.12;
 constexpr label correctionInterval = 12;  // iterations between additions and removals
 constexpr scalar roomAtBirth = 0.6;       // in dx, to the next particle
 constexpr scalar tolerableSum = 0.035;    // deviation of a kernel sum that calls for a correction
+constexpr scalar pair = 0.45;             // in dx: two so near, held in a corner, never part
 
 class relaxation
 {
@@ -107,8 +108,15 @@ private:
 
     void correct();
     void matchTargets();
-    void change(label most, scalar room, bool exchange);
-    bool offTarget() const;
+    enum class exchange
+    {
+        none,
+        uneven,  // where sums are far off
+        pairs
+    };
+    void change(label most, scalar room, exchange what);
+    List<char> secondOfPairs(const cellList& cells) const;
+    bool isFinal() const;
     bool birthPlace(const cellList& cells, const packedParticle& parent, scalar room,
                     packedParticle& born) const;
 
@@ -147,9 +155,23 @@ bool relaxation::birthPlace(const cellList& cells, const packedParticle& parent,
     return best > room;
 }
 
+// Of two particles of a zone that are a pair, the one of the higher index
+List<char> relaxation::secondOfPairs(const cellList& cells) const
+{
+    List<char> second(particles_.size(), 0);
+    for (label i = 0; i < label(particles_.size()); ++i)
+        if (particles_[i].where == place::zone)
+            cells.near(particles_[i].x, pair * dx_, [&](label j, scalar) {
+                if (j < i && particles_[j].where == place::zone &&
+                    particles_[j].owner == particles_[i].owner && !second[j])
+                    second[i] = 1;
+            });
+    return second;
+}
+
 // Adds where sums are lowest and removes where they are highest, until a zone has its target or `most` of each.
-// Exchanges: as many again where sums are far off, and no more are taken than others found room for
-void relaxation::change(label most, scalar room, bool exchange)
+// Exchanges as many again, but takes no more than others found room for
+void relaxation::change(label most, scalar room, exchange what)
 {
     const List<scalar> sum = kernelSums();
     List<List<label>> member(geometry_.zones().size());
@@ -158,6 +180,7 @@ void relaxation::change(label most, scalar room, bool exchange)
     const List<vector> x = withImagePoints(particles_, geometry_, settings_.support);
     const cellList cells(x, settings_.support);
     List<char> gone(particles_.size(), 0), touched(particles_.size(), 0);
+    const List<char> second = secondOfPairs(cells);
     List<packedParticle> born;
     const auto isolate = [&](label i) {
         cells.near(x[i], 2 * dx_, [&](label j, scalar) {
@@ -167,12 +190,17 @@ void relaxation::change(label most, scalar room, bool exchange)
     for (size_t z = 0; z < member.size(); ++z)
     {
         auto& m = member[z];
-        std::sort(m.begin(), m.end(),
-                  [&](label a, label b) { return sum[a] < sum[b] || (sum[a] == sum[b] && a < b); });
+        const auto rank = [&](label i) {
+            return std::make_tuple(what == exchange::pairs && second[i], sum[i], i);
+        };
+        std::sort(m.begin(), m.end(), [&](label a, label b) { return rank(a) < rank(b); });
         const label excess = label(m.size()) - target_[z];
-        label high = 0, low = 0;
-        for (const label i : m) high += sum[i] > 1 + tolerableSum, low += sum[i] < 1 - tolerableSum;
-        const label swap = exchange ? std::min({high, low, most}) : 0;
+        label high = 0, low = 0, pairs = 0;
+        for (const label i : m)
+            high += sum[i] > 1 + tolerableSum, low += sum[i] < 1 - tolerableSum, pairs += second[i];
+        const label swap = what == exchange::pairs    ? pairs
+                           : what == exchange::uneven ? std::min({high, low, most})
+                                                      : 0;
         const label remove = std::clamp<label>(excess, 0, most) + swap,
                     add = std::clamp<label>(-excess, 0, most) + swap;
         List<label> removed;
@@ -195,15 +223,21 @@ void relaxation::change(label most, scalar room, bool exchange)
 
 void relaxation::correct()
 {
-    change(std::max<label>(20, label(particles_.size() / 200)), roomAtBirth * dx_, true);
+    change(std::max<label>(20, label(particles_.size() / 200)), roomAtBirth * dx_,
+           exchange::uneven);
 }
 
-bool relaxation::offTarget() const
+bool relaxation::isFinal() const
 {
     List<label> n(target_.size(), 0);
+    List<vector> x;
     for (const packedParticle& p : particles_)
+    {
+        x.push_back(p.x);
         if (p.where == place::zone) ++n[p.owner];
-    return n != target_;
+    }
+    const List<char> second = secondOfPairs(cellList(x, pair * dx_));
+    return n == target_ && std::find(second.begin(), second.end(), 1) == second.end();
 }
 
 // Layers that are evenly full have no gap for one more: it is squeezed in, and the others move up
@@ -211,9 +245,10 @@ void relaxation::matchTargets()
 {
     for (const scalar room : {1.0, 0.75, 0.5, 0.25})
     {
-        change(label(particles_.size()), room * roomAtBirth * dx_, false);
+        change(label(particles_.size()), room * roomAtBirth * dx_,
+               room == 1 ? exchange::none : exchange::pairs);
         for (label it = 0; it < 20; ++it) step(0.5);
-        if (!offTarget()) break;
+        if (isFinal()) break;
     }
     for (packedParticle& p : particles_) guides_.hold(p, vector::Zero(), true);
 }
