@@ -12,7 +12,7 @@ void boundary::setStep(scalar t0, scalar t1)
 {
     content_->t0 = t0;
     content_->walls.setStep(t0, t1), content_->group.setTime(t1);
-    for (openFace& face : content_->openFaces) face.setStep(t0, t1);
+    content_->setStep(t0, t1);
 }
 
 void boundary::setStepBehind(scalar t0, scalar t1)

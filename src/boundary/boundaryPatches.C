@@ -138,7 +138,7 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
         const fileLocation where = patches.subDict(face.name()).where("type");
         face.setSites(sites.positions(face.name(), where), cloud, allowed, beside);
     }
-    checkRims(patches, sites, cloud.dx);
+    findRims(patches, sites, cloud.dx);
 }
 
 namespace
@@ -173,14 +173,17 @@ bool clash(const givingFace& g, const givingFace& other, scalar dx)
 
 }  // namespace
 
-// Particles would be carried into each other
-void boundary::content::checkRims(const dictionary& patches, const siteFile& sites, scalar dx) const
+void boundary::content::findRims(const dictionary& patches, const siteFile& sites, scalar dx)
 {
     List<givingFace> given;
-    for (const openFace& face : openFaces)
-        if (face.givesVelocity())
+    List<label> index;
+    for (size_t k = 0; k < openFaces.size(); ++k)
+        if (const openFace& face = openFaces[k]; face.givesVelocity())
+        {
             given.push_back(
                 {face, sites.positions(face.name(), patches.subDict(face.name()).where("type"))});
+            index.push_back(label(k));
+        }
     for (size_t k = 0; k < given.size(); ++k)
     {
         const word& name = given[k].face.name();
@@ -194,12 +197,23 @@ void boundary::content::checkRims(const dictionary& patches, const siteFile& sit
                                 "or 'rotation' in itself if its surface stays where it is");
         for (size_t m = k + 1; m < given.size(); ++m)
             if (clash(given[k], given[m], dx))
-                patches.subDict(name).fail(
-                    "type", "The faces " + name + " and " + given[m].face.name() +
-                                " meet, and the velocities they give run into each other there. "
-                                "Give both one 'direction', one of them the pressure, or leave a "
-                                "piece of wall between them");
+                sharedRims.push_back({index[k], index[m], patches.subDict(name).where("type")});
     }
+}
+
+// Particles that two faces bring in would be carried into each other; one may take out what the other brings
+void boundary::content::setStep(scalar from, scalar to)
+{
+    for (openFace& face : openFaces) face.setStep(from, to);
+    for (const sharedRim& rim : sharedRims)
+        if (const openFace& one = openFaces[rim.face], &other = openFaces[rim.other];
+            one.bringsIn() && other.bringsIn())
+            throw fatalError("The faces " + one.name() + " and " + other.name() +
+                                 " meet, and at time " + str(to) +
+                                 " s both bring fluid in, which runs into each other there. Give "
+                                 "both one 'direction', one of them the pressure, or leave a "
+                                 "piece of wall between them",
+                             rim.where);
 }
 
 boundary::boundary(const word& caseFolder, const dictionary& patches, const particleCloud& cloud,
@@ -218,6 +232,7 @@ boundary::boundary(const word& caseFolder, const dictionary& patches, const part
     c.visibility.find(c.walls, support);
     c.mirror.find(c.walls, support);
     c.addOpenFaces(caseFolder, patches, cloud);
+    c.setStep(t0, t0);
     for (const char* file : {"/constant/wallParticles.hdf", "/constant/openSites.hdf"})
         if (isFile(caseFolder + file)) siteFile(caseFolder + file).checkPatches(patches);
     patches.checkAllRead();

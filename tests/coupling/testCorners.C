@@ -150,6 +150,35 @@ TEST_CASE("what meets at a corner and cannot: two inlets against each other, an 
     CHECK(refused(oblique, oblique) == "");
 }
 
+TEST_CASE(
+    "one face takes out what another, that it meets, brings in; once both bring in, it is refused")
+{
+    for (const char* coupling : {"projection", "monolithic"})
+    {
+        CAPTURE(coupling);
+        boxCase box = cornerOf(kinds[0], kinds[0], coupling);
+        box.patch = {"type open; velocity 0.05;", "type open; p 0; backflow 0;",
+                     "type open; velocity table ((0 -0.02) (0.1 -0.02) (0.11 0.02));",
+                     "type wall; slip yes;"};
+        runningBox r(box, "suction");
+        r.run(2.5e-3, 40);
+        scalar in = 0, out = 0;
+        for (const patchBalance& b : r.c.walls->balance())
+            (b.name == "left" ? in : out) += b.volume;
+        CHECK(out == relative(-in, 0.03));
+        word said;
+        try
+        {
+            r.run(2.5e-3, 4);
+        }
+        catch (const fatalError& e)
+        {
+            said = e.what();
+        }
+        CHECK(said.find("both bring fluid in") != word::npos);
+    }
+}
+
 TEST_CASE("a uniform stream across a box that is open on all sides")
 {
     for (const char* coupling : {"projection", "monolithic"})
