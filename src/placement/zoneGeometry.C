@@ -212,12 +212,13 @@ void zoneGeometry::checkPatchNames() const
             const bool known = std::find(valid.begin(), valid.end(), name) != valid.end();
             if (known || name.empty() || name.rfind("to:", 0) == 0) continue;
             const vector c = s.centre(t);
-            throw fatalError(
-                "A face of zone " + zones_[z].name + " at (" + str(c[0]) + " " + str(c[1]) + " " +
-                str(c[2]) + ") belongs to patch " + name + ", which constant/boundary lacks." +
-                didYouMean(name, valid) + "\n" + validWords("patch", valid) +
-                "\nGive it an entry, or name the face in 'patches' or by 'defaultPatch' "
-                "of system/particleDict");
+            throw fatalError("A face of zone " + zones_[z].name + " at (" + str(c[0]) + " " +
+                             str(c[1]) + " " + str(c[2]) + ") belongs to patch " + name +
+                             ", which constant/boundary lacks." + didYouMean(name, valid) + "\n" +
+                             validWords("patch", valid) +
+                             "\nGive it an entry (a rigid zone's patch has its name), or name the "
+                             "face in 'patches' or by 'defaultPatch' "
+                             "of system/particleDict");
         }
 }
 
