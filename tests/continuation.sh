@@ -98,6 +98,9 @@ for coupling in monolithic projection; do
     sed -i 's/outOfBounds error/outOfBounds warn/' constant/boundary constant/g; rm -r 5.0*
     solved
     grep -q "outside the table" log && fail "$PWD: asked for times that are not the run's: $(grep -B 3 outside log)"
+    rm -r 5.04; echo "deltaT 0.03;" >> system/controlDict  # longer than all that was run
+    solved
+    grep -q "outside the table" log && fail "$PWD: continued, asked for times before the run: $(grep -B 3 outside log)"
     sed -i 's/outOfBounds warn/outOfBounds error/' constant/boundary constant/g
     sed -i 's/endTime 5.05/endTime 5.06/' system/controlDict
     solve && fail "$PWD: beyond the table"

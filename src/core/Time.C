@@ -63,7 +63,7 @@ Time::Time(const word& caseFolder) : Time(caseFolder, false)
 void Time::goTo(scalar t)
 {
     const scalar start = startTime_;
-    startTime_ = value_ = previous_ = t;
+    startTime_ = value_ = previous_ = t, deltaTBehind_ = 0;
     precision_ = askedPrecision(control_), grownPrecision_ = 0;  // each folder has its own
     writeNow_ = answer::unknown;
     readState();
@@ -147,7 +147,7 @@ Time& Time::operator++()
     if (modifiable_) rereadIfModified();
     const scalar target = nextTarget();
     previous_ = value_;
-    value_ += deltaT_;
+    value_ += deltaT_, deltaTBehind_ = deltaT_;
     // Land on the instant itself, not beside it by rounding.  Without one: ten steps of 0.1 make 1
     if (std::abs(value_ - target) < slack()) value_ = target;
     else if (target == never) value_ = inFewDigits(value_, 1e-6 * deltaT_);

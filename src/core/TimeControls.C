@@ -267,7 +267,7 @@ void Time::recall(scalar value, label index, scalar deltaT, const word& source)
         return;
     }
     startTime_ = value_ = previous_ = value;
-    index_ = index;
+    index_ = index, deltaTBehind_ = deltaT;
     if (adjust_ || postProcessing_) deltaT_ = std::min(deltaT, maxDeltaT_);
 }
 

@@ -145,9 +145,9 @@ TEST_CASE("what is not kept is told, each thing once")
     particleTable read;
     const word said = errorsOf([&] { read = readParticles(path); });
     for (const word what : {"'/VTKHDF/PointData/big' holds whole numbers beyond",
-                             "'/VTKHDF/PointData/cube'", "'/ispf/mine'", "'/ispf/extra/counts'",
-                             "'/VTKHDF/FieldData'", "attribute owner of '/ispf'",
-                             "attribute made of '/'", "attribute unit of '/VTKHDF/PointData/p'"})
+                            "'/VTKHDF/PointData/cube'", "'/ispf/mine'", "'/ispf/extra/counts'",
+                            "'/VTKHDF/FieldData'", "attribute owner of '/ispf'",
+                            "attribute made of '/'", "attribute unit of '/VTKHDF/PointData/p'"})
     {
         CAPTURE(what);
         const size_t first = said.find(what);
