@@ -158,7 +158,8 @@ TEST_CASE(
         CAPTURE(coupling);
         boxCase box = cornerOf(kinds[0], kinds[0], coupling);
         box.patch = {"type open; velocity 0.05;", "type open; p 0; backflow 0;",
-                     "type open; velocity table ((0 -0.02) (0.1 -0.02) (0.11 0.02));",
+                     "type open; velocity table ((0 -0.02) (0.1 -0.02) (0.11 0.02) (0.3 0.02) "
+                     "(0.31 -0.02));",
                      "type wall; slip yes;"};
         runningBox r(box, "suction");
         r.run(2.5e-3, 40);
