@@ -134,8 +134,8 @@ List<zoneQuality> packingQuality(const zoneGeometry& geometry, const placedParti
     return quality;
 }
 
-void reportPacking(const zoneGeometry& geometry, const placedParticles& placed, scalar support,
-                   bool bodyFitted)
+void reportPacking(const zoneGeometry& geometry, const placedParticles& placed,
+                   const List<zoneOverlap>& overlaps, scalar support, bool bodyFitted)
 {
     const List<zoneQuality> quality = packingQuality(geometry, placed, support);
     std::ostream& out = info();
@@ -178,7 +178,7 @@ void reportPacking(const zoneGeometry& geometry, const placedParticles& placed, 
                     (bodyFitted ? "a finer dx; a zone of few particles cannot hold half of one"
                                 : "a dx that divides its lengths, or placement bodyFitted"));
     }
-    for (const zoneOverlap& o : zoneOverlaps(geometry, placed))
+    for (const zoneOverlap& o : overlaps)
         out << "zones overlap: " << geometry.zones()[o.zone].name << " takes " << str(o.volume, 4)
             << (geometry.nDims() == 3 ? " m3" : " m2") << " of " << geometry.zones()[o.of].name
             << ", which comes before it, around (" << str(o.middle[0], 4) << " "

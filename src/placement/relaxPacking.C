@@ -180,7 +180,8 @@ void relaxation::change(label most, scalar room, exchange what)
     const List<vector> x = withImagePoints(particles_, geometry_, settings_.support);
     const cellList cells(x, settings_.support);
     List<char> gone(particles_.size(), 0), touched(particles_.size(), 0);
-    const List<char> second = secondOfPairs(cells);
+    const List<char> second =
+        what == exchange::pairs ? secondOfPairs(cells) : List<char>(particles_.size(), 0);
     List<packedParticle> born;
     const auto isolate = [&](label i) {
         cells.near(x[i], 2 * dx_, [&](label j, scalar) {
@@ -190,9 +191,7 @@ void relaxation::change(label most, scalar room, exchange what)
     for (size_t z = 0; z < member.size(); ++z)
     {
         auto& m = member[z];
-        const auto rank = [&](label i) {
-            return std::make_tuple(what == exchange::pairs && second[i], sum[i], i);
-        };
+        const auto rank = [&](label i) { return std::make_tuple(second[i], sum[i], i); };
         std::sort(m.begin(), m.end(), [&](label a, label b) { return rank(a) < rank(b); });
         const label excess = label(m.size()) - target_[z];
         label high = 0, low = 0, pairs = 0;

@@ -44,8 +44,9 @@ int main(int argc, char** argv)
         const placedParticles placed =
             dict.bodyFitted ? placeBodyFitted(geometry, outside, dict.support)
                             : placeOnLattice(geometry, outside, dict.origin, dict.support);
-        reportPacking(geometry, placed, dict.support, dict.bodyFitted);
-        dict.checkOverlaps(zoneOverlaps(geometry, placed));
+        const List<zoneOverlap> overlaps = zoneOverlaps(geometry, placed);
+        reportPacking(geometry, placed, overlaps, dict.support, dict.bodyFitted);
+        dict.checkOverlaps(overlaps);
         writeCase(folder, geometry, placed, dict.initial(), dict.sources, dict.stripLayers);
         warnOfOldTimes(folder);
         info() << "End" << std::endl;
