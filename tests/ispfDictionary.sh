@@ -85,6 +85,14 @@ printf 'base { a 1; }\ncopy { $base; b 3; }\n' > one; printf 'base { a 2; }\n#in
 sed 's/1e-6/0.000001/; s/endTime *\([0-9.]*\)/endTime \1e0/' original > respelt; cmp -s original respelt && fail "nothing is spelt otherwise"
 [ -z "$(ispfDictionary original -diff respelt)$(ispfDictionary original -diff respelt -disableFunctionEntries)" ] || fail "-diff of numbers spelt otherwise: $(ispfDictionary original -diff respelt)"
 printf 'FoamFile { version 2.0; class dictionary; }\na 1;\n' > headed
+sed 's/class dictionary/class other/' headed > other
+for raw in "" -disableFunctionEntries; do
+    # shellcheck disable=SC2086
+    [ "$(ispfDictionary headed -diff other $raw | tr -s ' \n' ' ')" = "FoamFile { class dictionary; } " ] || fail "-diff of headers $raw: $(ispfDictionary headed -diff other $raw)"
+done
+printf 'a 2 [min];\nb $a;\nc (1 2);\n' > units
+[ "$(ispfDictionary units -entry b -SI)" = 120 ] && [ "$(ispfDictionary units -entry b -value)" = "2 [min]" ] || fail "-SI: $(ispfDictionary units -entry b -SI 2>&1)"
+ispfDictionary units -entry c -SI > log 2>&1 && fail "-SI of a list"
 [ "$(ispfDictionary headed -entry FoamFile | tr -s ' \n' ' ')" = "FoamFile { version 2.0; class dictionary; } " ] || fail "the header: $(ispfDictionary headed -entry FoamFile 2>&1)"
 [ "$(ispfDictionary headed -entry FoamFile.class -value)" = dictionary ] || fail "of the header: $(ispfDictionary headed -entry FoamFile.class -value 2>&1)"
 # the header is edited like any dictionary, and stands first where there was none
@@ -138,6 +146,22 @@ pattern 'solvers { "(U|p)" { tol 1; } p { $U; rel 2; } } ".*" { type none; } wal
 pattern 'solvers { "(U|p)" { tol 1; } p { $U; rel 2; } } ".*" { type none; } walls {x 1;}' -entry walls -set '{x 1;}'
 cp patterns edited; ispfDictionary edited -entry walls.velocity -remove > log 2>&1 && fail "removed what is not there"
 cmp -s patterns edited || fail "removed what a pattern matches: $(cat edited)"
+# and not below a pattern, which would change all that it stands for (foamDictionary refuses these likewise)
+printf '"U.*" { tol 1; }\nUy { tol 7; }\n"k.*" 1;\n' > patterns
+for wrong in "Ux.tol -set 5" "Ux.new -add 5" "Ux.tol -remove" "Ux.sub.tol -set 5"; do
+    cp patterns edited
+    # shellcheck disable=SC2086
+    ispfDictionary edited -entry $wrong > log 2>&1 && fail "accepted: -entry $wrong"
+    grep -q "There is no dictionary 'Ux': a pattern" log && cmp -s patterns edited || fail "-entry $wrong: $(cat log edited)"
+done
+pattern '"U.*" { tol 1; } Uy { tol 5; } "k.*" 1;' -entry Uy.tol -set 5
+pattern '"U.*" { tol 5; } Uy { tol 7; } "k.*" 1;' -entry 'U.*.tol' -set 5
+pattern '"U.*" { tol 1; } Uy { tol 7; } "k.*" 1; Ux {tol 5;}' -entry Ux -set '{tol 5;}'
+pattern '"U.*" { tol 1; } Uy { tol 7; } "k.*" 1; k1 5;' -entry k1 -set 5
+echo '"(a|b)" { t 1; }' > patterns
+pattern '"(a|b)" { t 4; }' -entry '(a|b).t' -set 4
+echo '".*" { a 1; }' > patterns
+pattern 'FoamFile { object foo; } ".*" { a 1; }' -entry FoamFile.object -set foo
 # what an included file holds is set beside a pattern that matches it
 echo 'solvers { p { tol 1; } }' > incf
 through() {

@@ -123,50 +123,31 @@ void dictionaryText::collect(const item& in, const word& name, List<const item*>
 {
     for (const item& e : in.items)
     {
-        const bool matches = !e.isPattern && e.key == name;
-        if (matches) found.push_back(&e);
-        if (!e.isDict || e.isPattern || name.compare(0, e.key.size() + 1, e.key + ".") != 0)
-            continue;
-        collect(e, name.substr(e.key.size() + 1), found);
+        if (e.key == name) found.push_back(&e);
+        else if (e.isDict && name.starts_with(e.key + "."))
+            collect(e, name.substr(e.key.size() + 1), found);
     }
     if (!found.empty()) return;
     for (const item& e : in.items)
     {
         if (!e.isPattern) continue;
         const regularExpression pattern(e.key, {file_, "", 0, 0});
-        if (pattern.matches(name) || e.key == name) found.push_back(&e);
-        if (e.key == name) continue;
+        if (pattern.matches(name)) found.push_back(&e);
         for (size_t dot = name.find('.'); e.isDict && dot != word::npos;
              dot = name.find('.', dot + 1))
             if (pattern.matches(name.substr(0, dot))) collect(e, name.substr(dot + 1), found);
     }
 }
 
-// Those an edit is meant for: its key as it is written, in the dictionaries that programs read it from.  A pattern
-// that matches stands for other entries as well, and is left alone
+// Those an edit is meant for: under the keys as they are written.  A pattern that matches stands for other entries as
+// well, and is left alone
 void dictionaryText::collectOwn(const item& in, const word& name, List<const item*>& found) const
 {
     for (const item& e : in.items)
-        if (e.key == name) found.push_back(&e);
-    for (const bool patterns : {false, true})
     {
-        for (size_t dot = name.find('.'); dot != word::npos && found.empty();
-             dot = name.find('.', dot + 1))
-        {
-            const word first = name.substr(0, dot);
-            bool there = false;
-            for (const item& e : in.items)
-            {
-                const bool isParent =
-                    e.isDict && (e.key == first ||
-                                 (patterns && e.isPattern &&
-                                  regularExpression(e.key, {file_, "", 0, 0}).matches(first)));
-                if (!isParent) continue;
-                there = true;
-                collectOwn(e, name.substr(dot + 1), found);
-            }
-            if (there) return;
-        }
+        if (e.key == name) found.push_back(&e);
+        else if (e.isDict && name.starts_with(e.key + "."))
+            collectOwn(e, name.substr(e.key.size() + 1), found);
     }
 }
 
@@ -302,8 +283,8 @@ List<std::pair<const dictionaryText::item*, word>> dictionaryText::parentsOf(con
     for (size_t dot = name.rfind('.'); dot != word::npos && dot > 0; dot = name.rfind('.', dot - 1))
     {
         const List<const item*> all = own(name.substr(0, dot));
-        const item* e = all.empty() ? find(name.substr(0, dot)) : all.back();
-        if (e && e->isDict) parents.emplace_back(e, name.substr(dot + 1));
+        if (!all.empty() && all.back()->isDict)
+            parents.emplace_back(all.back(), name.substr(dot + 1));
     }
     parents.emplace_back(&top_, name);
     return parents;

@@ -29,7 +29,7 @@ word dotted(word name)
 // its own comes first, a pattern that would match the dots as well last
 const dictionary* holderOf(const dictionary& d, const word& name, word& key)
 {
-    const List<word> exact = d.keys();
+    const List<word> exact = d.allKeys();
     const auto isExact = [&](const word& k) {
         return std::find(exact.begin(), exact.end(), k) != exact.end();
     };
@@ -129,8 +129,13 @@ word textDifferences(const dictionaryText& a, const dictionaryText& b, const wor
 word differences(const argList& args, const word& path, const word& other)
 {
     if (!args.found("disableFunctionEntries"))
-        return differences(dictionary::fromPart(readText(path), path),
-                           dictionary::fromPart(readText(other), other));
+    {
+        const dictionary a = dictionary::fromPart(readText(path), path),
+                         b = dictionary::fromPart(readText(other), other);
+        const word inHeader = differences(a.header(), b.header());
+        return (inHeader.empty() ? "" : header + "\n{\n" + indented(inHeader) + "}\n") +
+               differences(a, b);
+    }
     const dictionaryText a(readText(path), path), b(readText(other), other);
     word text;
     const List<word> there = b.includes();
@@ -167,9 +172,41 @@ word valueAbove(const dictionaryText& text, const word& name)
     return "";
 }
 
+// The part of a dotted name that is no dictionary of its own, but given its entries by a pattern
+word patternAbove(const dictionaryText& text, const dictionary& d, const word& name,
+                  const word& scope = "")
+{
+    const List<word> exact = d.keys();
+    word matched;
+    for (size_t dot = name.find('.'); dot != word::npos; dot = name.find('.', dot + 1))
+    {
+        const word first = name.substr(0, dot), above = scope + first;
+        if (!d.isDict(first)) continue;
+        if (text.holds(above) || std::find(exact.begin(), exact.end(), first) != exact.end())
+            return patternAbove(text, d.subDict(first), name.substr(dot + 1), above + ".");
+        if (matched.empty()) matched = above;
+    }
+    return matched;
+}
+
+void refusePatternAbove(const dictionaryText& text, const word& path, const word& name)
+{
+    if (text.holds(name) || text.holds(name.substr(0, name.rfind('.'))) ||
+        name.starts_with(header + "."))
+        return;
+    const word above = patternAbove(text, dictionary::fromPart(text.text(), path), name);
+    if (above.empty()) return;
+    throw fatalError("There is no dictionary '" + above +
+                         "': a pattern matches it, and stands for others as well. Edit the pattern "
+                         "under its own name, or add '" +
+                         above + "' with all its entries in braces.",
+                     {path, above, 0, 0});
+}
+
 void edit(const argList& args, dictionaryText& text, const word& path)
 {
     const word name = dotted(args.option("entry"));
+    refusePatternAbove(text, path, name);
     if (const word above = valueAbove(text, name); !text.holds(name) && !above.empty())
         throw fatalError(
             "'" + above + "' is a value and no dictionary: there is no '" + name + "' in it.",
@@ -229,7 +266,8 @@ void printExpanded(const argList& args, const word& path)
         throw fatalError("There is no entry '" + name + "'." + didYouMean(name, d.allKeys()) +
                              "\nPresent: " + join(d.allKeys()),
                          {path, "", 0, 0});
-    if (args.found("keywords")) info() << join(holder->subDict(key).allKeys(), "\n") << "\n";
+    if (args.found("SI")) info() << str(holder->get<scalar>(key, dims::any), 15) << "\n";
+    else if (args.found("keywords")) info() << join(holder->subDict(key).allKeys(), "\n") << "\n";
     else if (args.found("value")) info() << holder->valueText(key) << "\n";
     else info() << holder->toString(key);
 }
@@ -251,6 +289,7 @@ int run(int argc, char** argv)
     args.addArgument("dict", "the dictionary file, relative to the case");
     args.addOption("entry", "name", "the entry, with its dictionaries: solvers.p.tolerance");
     args.addSwitch("value", "print the value alone");
+    args.addSwitch("SI", "print the value alone, a number, in SI units");
     args.addSwitch("keywords", "list the keywords");
     args.addSwitch("expand", "print the whole file with macros, #include, #calc and the like");
     args.addOption("set", "value", "change the entry, or add it");
