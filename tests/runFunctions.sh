@@ -80,6 +80,14 @@ cp dict before
 run 'setEntry dict a 5 && setEntry dict b.c "(1 2)" && getEntry dict a && getEntry dict b.c' || fail "setEntry: $(cat "$scratch/out")"
 [ "$(cat "$scratch/out")" = $'5\n(1 2)' ] || fail "setEntry: $(cat "$scratch/out")"
 [ "$(diff before dict | grep -c '^>')" = 2 ] && grep -q "^a 5; // counts" dict || fail "setEntry: $(diff before dict)"
+for wrong in 'setEntry dict a ""' 'setEntry dict a "$unset"' 'setEntry dict a' 'setEntry dict a 1 2'; do
+    cp dict before; run "$wrong; echo \$?" || fail "$wrong: $(cat "$scratch/out")"
+    cmp -s before dict || fail "$wrong: $(cat dict)"
+    says "setEntry: file, name and value are wanted"; says '^1$'
+    cp before dict
+done
+echo "t 1.25 [ms];" > units
+run 'getEntry units t -SI; getEntry units t' && [ "$(cat "$scratch/out")" = $'0.00125\n1.25 [ms]' ] || fail "getEntry -SI: $(cat "$scratch/out")"
 for wrong in "setEntry dict n 1" "getEntry dict n" "getEntry nothing a" 'setEntry dict a "(1"'; do
     cp dict before; run "$wrong" && fail "accepted: $wrong"
     cmp -s before dict && grep -q "FATAL" "$scratch/out" || fail "$wrong: $(cat "$scratch/out")"
@@ -89,10 +97,11 @@ says "would break"
 cd ..; rm -r entries
 
 run 'restore0Dir; touch 0/extra; restore0Dir' && [ "$(ls 0)" = U ] || fail "restore0Dir"
-mkdir -p 0.5 1e-05 10 constant 2D postProcessing/probes; touch dx.hdf.series particles.vtp.series
+mkdir -p 0.5 1e-05 10 0.0 0.00e+00 0e0 0e-5 0.1e+00 constant 2D postProcessing/probes; touch dx.hdf.series particles.vtp.series
 run cleanTimeDirectories || fail cleanTimeDirectories
-[ "$(echo *)" = "0 0.orig 2D constant log.badOne log.goodOne log.goodOne.two log.muteOne postProcessing system" ] ||
+[ "$(echo *)" = "0 0.0 0.00e+00 0.orig 0e-5 0e0 2D constant log.badOne log.goodOne log.goodOne.two log.muteOne postProcessing system" ] ||
     fail "cleanTimeDirectories left: $(echo *)"
+rmdir 0.0 0.00e+00 0e-5 0e0
 run cleanCase || fail cleanCase
 [ "$(echo *)" = "0 0.orig 2D constant system" ] || fail "cleanCase left: $(echo *)"
 run cleanCase0 && [ ! -e 0 ] || fail cleanCase0
