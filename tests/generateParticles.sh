@@ -175,6 +175,11 @@ refused "ice half in the water" "Zone ice lies partly in zone water, which comes
 shape "$box" "" "$ice mayOverlap yes; }"
 generateParticles > out 2>&1 || fail "overlap: $(tail -n 5 out)"
 grep -q "overlap: ice takes 2e-07 m3 of water, which comes before it, around (0.009 0.005 0.005)" out || fail "overlap: $(cat out)"
+block="walls { phase rigid; ${ice#*fluid;}"
+shape "$box" "" "$block }"
+generateParticles > out 2>&1 || fail "a rigid zone half in the water: $(tail -n 5 out)"
+shape "$box" "" "$block mayOverlap yes; }"
+refused "mayOverlap of a rigid zone" "Zone walls is rigid" "may lie partly in them" "zones.walls.mayOverlap at line"
 shape "$box" "" "pea { phase fluid; shape sphere; centre (0.005 0.005 0.005); radius 0.003; }"
 generateParticles > out 2>&1 && grep -q "overlap: pea takes" out || fail "pea: $(tail -n 5 out)"
 # Layers that meet at cyclic planes: two particles, pressed into a corner, stayed in one place

@@ -310,7 +310,11 @@ void particleDict::addZone(const word& name, List<body>& bodies)
     List<body> own = dict.found("file") ? cadBodies(name, dict) : List<body>{shapeBody(dict)};
     const zoneInfo zone = readZone(name, dict);
     const bool rigid = zone.phase == phaseType::rigid;
-    if (!rigid && dict.getOrDefault("mayOverlap", false)) mayOverlap_.insert(name);
+    if (rigid && dict.found("mayOverlap"))
+        dict.fail("mayOverlap", "Zone " + name +
+                                    " is rigid: it is a hole in the zones before it, and may lie "
+                                    "partly in them as it is. Remove the entry");
+    if (dict.getOrDefault("mayOverlap", false)) mayOverlap_.insert(name);
     for (body& b : own)
     {
         nameByPlane(b.surface);
