@@ -55,6 +55,20 @@ public:
         const auto [stop, error] = std::from_chars(t.text.data(), end, v);
         if (error != std::errc() || stop != end) fail(t, "a whole number");
     }
+    void want(const char* form)
+    {
+        if (!next().isPlain()) d_.fail(key_, word(form) + " is missing.");
+    }
+    // All numbers of a typed list, if that is what comes next
+    bool readNumbers(List<scalar>& values)
+    {
+        if (!more() || t_[at_].kind != token::numbers) return false;
+        const word& bytes = t_[at_++].text;
+        values.resize(bytes.size() / sizeof(scalar));
+        std::memcpy(values.data(), bytes.data(), values.size() * sizeof(scalar));
+        return true;
+    }
+    bool readNumbers(List<globalId>&) { return false; }
     // n(...): n must be what is there
     template <class T>
     void readList(List<T>& values)
@@ -125,7 +139,8 @@ public:
                                  ": the field is missing, but " + folder_ + stateFile +
                                  " names it.");
         readFields(table);
-        checkTable(table, "Cannot read '" + folder_ + "'");
+        for (const word& name : foreign_) judge(name, table);
+        checkTable(table, "Cannot read '" + folder_ + "'", isDamaged);
         if (globalId(table.size()) != state_.get<label>("nParticles"))
             state_.fail("nParticles", "There are " + std::to_string(table.size()) + " positions.");
         return table;
@@ -155,16 +170,58 @@ private:
                 item.path().extension() != ".tmp")
                 names.push_back(name);
         std::sort(names.begin(), names.end());
-        for (const word& name : names) readField(name, table);
+        for (const word& name : names)
+            if (isOurs(name)) readField(name, table);
+            else readForeign(name, table);
+    }
+
+    // By its checksum; what particles cannot do without is ours also where somebody has edited it
+    bool isOurs(const word& name) const
+    {
+        static const List<word> needed = {positions, "U", "p", "zone", "id", "x0"};
+        return sums_.count(name) || std::find(needed.begin(), needed.end(), name) != needed.end();
+    }
+
+    void remarkLost(const word& name, const word& why) const
+    {
+        warning(folder_ + "/" + name + " " + why + ": later times are without it");
+    }
+
+    // What is no good is left out
+    void readForeign(const word& name, particleTable& table)
+    {
+        try
+        {
+            if (readText(folder_ + "/" + name).find("internalField") == word::npos)
+                return remarkLost(name, "is no field");
+            readField(name, table);
+            foreign_.push_back(name);
+        }
+        catch (const fatalError& e)
+        {
+            const int line = e.location().line;
+            remarkLost(name, "is no field that can be read (" +
+                                 (line > 0 ? "line " + std::to_string(line) + ": " : "") +
+                                 e.what() + ")");
+        }
+    }
+
+    void judge(const word& name, particleTable& table) const
+    {
+        const word fault = takeOutUnsound(table, name);
+        if (!fault.empty()) return remarkLost(name, "is not kept (" + fault + ")");
+        remarkKept(name);
+    }
+
+    void remarkKept(const word& name) const
+    {
+        warning(folder_ + "/" + name + " has no checksum in " + folder_ + stateFile +
+                ": somebody else has put it in, and it is kept");
     }
 
     void readField(const word& name, particleTable& table)
     {
-        const word file = folder_ + "/" + name;
-        const bool foreign = !sums_.count(name);
-        if (foreign && readText(file).find("internalField") == word::npos)
-            return warning(file + " is no field: later times are without it");
-        const dictionary d = dictionary::fromFile(file);
+        const dictionary d = dictionary::fromFile(folder_ + "/" + name);
         const List<token>& tokens = d.tokenList("internalField");
         const word type = tokens.size() > 1 ? listType(tokens[1].text) : "";
         const auto values = [&](auto list) {
@@ -173,47 +230,78 @@ private:
         if (type == "scalar") keep(name, table.scalars[name] = values(List<scalar>()));
         else if (type == "label")
             keep(name, table.integers[name] = whole(d, values(List<scalar>())));
-        else if (const size_t width = componentsOf(type);
-                 !listOf(width).empty() || type == "sphericalTensor")
-        {
-            const List<scalar> flat = flatNumbers(d, width);
-            keep(name, flat);
-            split(flat, name, width, table.scalars);
-        }
+        else if (const auto [isWhole, width] = wideType(type); width > 0)
+            isWhole ? readWide(d, name, width, table.integers)
+                    : readWide(d, name, width, table.scalars);
         else if (type != "vector")
-        {
-            const word valid =
-                validWords("list", {"List<scalar>", "List<vector>", "List<label>", "List<vector2D>",
-                                    "List<symmTensor>", "List<tensor>", "List<sphericalTensor>"});
-            if (!foreign) d.fail("internalField", "Expected nonuniform and a list.\n" + valid);
-            warning(file + " has no list of these: later times are without it. " + valid);
-        }
+            d.fail("internalField",
+                   "Expected nonuniform and a list.\n" +
+                       validWords("list",
+                                  {"List<scalar>", "List<vector>", "List<label>", "List<vector2D>",
+                                   "List<symmTensor>", "List<tensor>", "List<sphericalTensor>",
+                                   "List<FixedList<scalar,n>>", "List<FixedList<label,n>>"}));
         else if (name == positions) keep(name, table.x = values(List<vector>()));
         else keep(name, table.vectors[name] = values(List<vector>()));
     }
 
-    // Of a list of elements in parentheses, row by row
-    static List<scalar> flatNumbers(const dictionary& d, size_t width)
+    // Whole numbers or not, and how many; none if it is no type of several numbers
+    static std::pair<bool, size_t> wideType(const word& type)
+    {
+        for (const char* component : {"scalar", "label"})
+        {
+            const word begin = "FixedList<" + word(component) + ",";
+            scalar n = 0;
+            if (!type.starts_with(begin) ||
+                !readNumber(type.substr(begin.size(), type.size() - begin.size() - 1), n))
+                continue;
+            const bool isOne = n >= 1 && n <= scalar(mostComponents) && n == std::floor(n);
+            return {component == word("label"), isOne ? size_t(n) : 0};
+        }
+        const size_t width = componentsOf(type);
+        return {false, elementType("scalar", width) == type ? width : 0};
+    }
+
+    template <class T>
+    void readWide(const dictionary& d, const word& name, size_t width,
+                  std::map<word, List<T>>& columns)
+    {
+        const List<T> flat = flatList<T>(d, width);
+        keep(name, flat);
+        split(flat, name, width, columns);
+    }
+
+    // Of n((..)(..)...) or n{(..)}, row by row
+    template <class T>
+    List<T> flatList(const dictionary& d, size_t width)
     {
         entryReader r(d, "internalField");
-        for (const char* form : {"nonuniform", "List<...>"})
-            if (!r.next().isPlain()) d.fail("internalField", word(form) + " is missing.");
+        r.want("nonuniform"), r.want("List<...>");
         globalId n = 0;
         r.read(n);
-        List<scalar> flat;
-        if (const token& t = r.next(); t.kind == token::numbers)
+        if (n != state_.get<label>("nParticles"))
+            d.fail("internalField",
+                   "The list is said to hold " + std::to_string(n) + " elements, but there are " +
+                       std::to_string(state_.get<label>("nParticles")) + " particles.");
+        List<T> flat;
+        const auto readElement = [&] {
+            r.want('(');
+            for (size_t k = 0; k < width; ++k) r.read(flat.emplace_back());
+            r.want(')');
+        };
+        if (r.skip('{'))
         {
-            flat.resize(t.text.size() / sizeof(scalar));
-            std::memcpy(flat.data(), t.text.data(), flat.size() * sizeof(scalar));
+            readElement();
+            r.want('}');
+            flat.reserve(size_t(n) * width);
+            while (flat.size() < size_t(n) * width) flat.push_back(flat[flat.size() - width]);
         }
-        else
-            while (r.more())
-                if (!r.skip('(') && !r.skip(')')) r.read(flat.emplace_back());
-        if (n < 0 || flat.size() % width != 0 || flat.size() / width != size_t(n))
-            d.fail("internalField", "The list is said to hold " + std::to_string(n) +
-                                        " elements of " + std::to_string(width) +
-                                        " numbers, but there are " + std::to_string(flat.size()) +
-                                        " numbers.");
+        else if (!r.readNumbers(flat))
+        {
+            r.want('(');
+            for (globalId i = 0; i < n; ++i) readElement();
+            r.want(')');
+        }
+        if (r.more()) r.fail(r.next(), "the end of the list");
         return flat;
     }
 
@@ -236,9 +324,7 @@ private:
     {
         const word file = folder_ + "/" + name;
         const auto sum = sums_.find(name);
-        if (sum == sums_.end())
-            return warning(file + " has no checksum in " + folder_ + stateFile +
-                           ": somebody else has put it in, and it is kept");
+        if (sum == sums_.end()) return isOurs(name) ? remarkKept(name) : void();
         if (sum->second != checksumOf(name, values))
             throw fatalError(
                 "Cannot read " + file +
@@ -250,6 +336,7 @@ private:
     word folder_;
     dictionary state_;
     std::map<word, globalId> sums_;
+    List<word> foreign_;
 };
 
 }  // namespace

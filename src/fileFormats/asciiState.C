@@ -71,22 +71,25 @@ public:
         add(name, text + ")\n;\n", checksumOf(name, values));
     }
 
-    void addScalars(const particleTable& table, const diskColumn<scalar>& column)
+    template <class T>
+    void addColumns(const std::map<word, List<T>>& columns, const word& type, const char* component)
     {
-        const word list = column.wide ? listOf(column.parts.size()) : "";
-        if (list.empty())
-        {
-            for (size_t k = 0; k < column.parts.size(); ++k)
-                add(column.wide ? componentName(column.name, k) : column.name, "Scalar", "scalar",
-                    *column.parts[k]);
-            return;
-        }
-        const word type = word(1, char(std::toupper(list[0]))) + list.substr(1);
+        for (const diskColumn<T>& c : diskColumns(columns))
+            if (c.wide) addWide(c, component);
+            else add(c.name, type, component, *c.parts[0]);
+    }
+
+    template <class T>
+    void addWide(const diskColumn<T>& column, const char* component)
+    {
+        const word list = elementType(component, column.parts.size());
+        const bool isTensor = list.find('<') == word::npos;
+        const word type = isTensor ? word(1, char(std::toupper(list[0]))) + list.substr(1) : "";
         word text = header("particle" + type + "Field", location_, column.name) +
                     "internalField   nonuniform List<" + list + ">\n";
-        put(text, table.size());
+        put(text, column.parts[0]->size());
         text += "\n(\n";
-        for (size_t i = 0; i < table.size(); ++i)
+        for (size_t i = 0; i < column.parts[0]->size(); ++i)
         {
             for (size_t k = 0; k < column.parts.size(); ++k)
                 text += k == 0 ? '(' : ' ', put(text, (*column.parts[k])[i]);
@@ -98,9 +101,9 @@ public:
     List<namedText> files(const particleTable& table, int precision)
     {
         add(positions, "Vector", "vector", table.x);
-        for (const diskColumn<scalar>& c : diskColumns(table, table.scalars)) addScalars(table, c);
+        addColumns(table.scalars, "Scalar", "scalar");
         for (const auto& [name, v] : table.vectors) add(name, "Vector", "vector", v);
-        for (const auto& [name, v] : table.integers) add(name, "Label", "label", v);
+        addColumns(table.integers, "Label", "label");
         files_.push_back({folder_ + "/" + paraviewCopy, vtpText(table, precision)});
         files_.push_back(
             {folder_ + stateFile, stateText(table)});  // last: it makes the folder a state
@@ -146,7 +149,7 @@ globalId checksumOfRest(const particleTable& table)
 
 void writeAsciiState(const particleTable& table, const word& folder, int precision)
 {
-    checkTable(table, "Particles are not written to '" + folder + "'");
+    checkTable(table, "Particles are not written to '" + folder + "'", hasDiverged);
     List<word> old = asciiStateFiles(folder);
     const List<namedText> files = composer(folder).files(table, precision);
     writeTexts(files);

@@ -14,7 +14,9 @@
 #include "wideColumns.H"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 namespace ispf
@@ -40,8 +42,8 @@ public:
         file_.group(texts);
         file_.attribute(ours, "version", List<globalId>{formatVersion});
         put(points, table.x);
-        putColumns(table, table.scalars), putAll(columns, table.vectors);
-        putColumns(table, table.integers), putAll(extras, table.extra);
+        putColumns(table.scalars), putAll(columns, table.vectors);
+        putColumns(table.integers), putAll(extras, table.extra);
         putAll(texts, table.attributes);
         put(contents, word(list_));
         return file_.bytes();
@@ -56,9 +58,9 @@ private:
         list_ += path + "\n";
     }
     template <class T>
-    void putColumns(const particleTable& table, const std::map<word, List<T>>& list)
+    void putColumns(const std::map<word, List<T>>& list)
     {
-        for (const diskColumn<T>& column : diskColumns(table, list))
+        for (const diskColumn<T>& column : diskColumns(list))
         {
             const word path = columns + "/" + column.name;
             if (!column.wide)
@@ -107,19 +109,21 @@ public:
     particleTable read()
     {
         version_ = readVersion();
+        if (version_ > 1) readContents();
         remarkOthers();
         particleTable table;
         get(points, table.x);
-        for (const word& name : file_.children(columns)) readColumn(name, table);
+        for (const word& name : file_.children(columns))
+            if (isForeign(columns + "/" + name)) readForeign(name, table);
+            else readColumn(name, table);
         for (const word& name : file_.children(extras))
-            if (isOf(extras + "/" + name, hdf5Reader::kind::scalars))
-                get(extras + "/" + name, table.extra[name]);
+            if (isOf(extras + "/" + name, hdf5Reader::kind::scalars)) getExtra(name, table.extra);
         for (const word& name : file_.children(texts))
             if (isOf(texts + "/" + name, hdf5Reader::kind::text))
                 get(texts + "/" + name, table.attributes[name]);
-        checkTable(table, "Cannot read '" + path_ + "'");
+        for (const word& name : foreign_) judge(name, table);
+        checkTable(table, "Cannot read '" + path_ + "'", isDamaged);
         if (version_ == 1) checkWhole(table);
-        else checkContents();
         return table;
     }
 
@@ -155,11 +159,64 @@ private:
                 remarkLost("the attribute " + name + " of '" + object + "' is of no use here");
     }
 
+    bool isForeign(const word& path) const
+    {
+        return version_ > 1 && !ours_.count(path) && !file_.foundAttribute(path, sum);
+    }
+
+    bool leadsNowhere(const word& path)
+    {
+        if (file_.found(path)) return false;
+        remarkLost("'" + path + "' is a link to nothing");
+        return true;
+    }
+
+    // What is no good is left out
+    void readForeign(const word& name, particleTable& table)
+    {
+        const word path = columns + "/" + name;
+        if (leadsNowhere(path)) return;
+        try
+        {
+            if (readColumn(name, table)) foreign_.push_back(name);
+        }
+        catch (const fatalError& e)
+        {
+            remarkLost("'" + path + "' is no field that can be read (" + e.what() + ")");
+        }
+    }
+
+    void judge(const word& name, particleTable& table)
+    {
+        const word path = columns + "/" + name, fault = takeOutUnsound(table, name);
+        if (fault.empty()) remarkKept(path);
+        else remarkLost("'" + path + "' is not kept (" + fault + ")");
+    }
+
+    void remarkKept(const word& path)
+    {
+        remark("'" + path + "' has no checksum: somebody else has put it in, and it is kept");
+    }
+
+    void getExtra(const word& name, std::map<word, List<scalar>>& list)
+    {
+        const word path = extras + "/" + name;
+        List<scalar> values;
+        file_.read(path, values);
+        const bool isSound =
+            std::all_of(values.begin(), values.end(), [](scalar v) { return std::isfinite(v); });
+        if (isForeign(path) && !isSound)
+            return remarkLost("'" + path + "' holds what is not a finite number");
+        check(path, values);
+        list[name] = std::move(values);
+    }
+
     // An array or text of ours; one of another kind somebody else has put in
     bool isOf(const word& path, hdf5Reader::kind wanted)
     {
-        const bool damaged = file_.foundAttribute(path, sum);
-        if (damaged || file_.kindOf(path) == wanted) return true;
+        if (ours_.count(path) || file_.foundAttribute(path, sum)) return true;
+        if (leadsNowhere(path)) return false;
+        if (file_.kindOf(path) == wanted) return true;
         remarkLost("'" + path + "' is no " +
                    (wanted == hdf5Reader::kind::text ? "text" : "list of real numbers"));
         return false;
@@ -192,8 +249,7 @@ private:
     {
         if (version_ == 1) return;
         if (!file_.foundAttribute(path, sum))
-            return remark("'" + path +
-                          "' has no checksum: somebody else has put it in, and it is kept");
+            return isForeign(path) && path.starts_with(columns) ? void() : remarkKept(path);
         List<globalId> stored;
         file_.attribute(path, sum, stored);
         if (stored != List<globalId>{checksumOf(path, values)})
@@ -204,23 +260,25 @@ private:
                 sum + " of that dataset");
     }
 
-    void readColumn(const word& name, particleTable& table)
+    // False, and it is told, if it is of no kind of ours
+    bool readColumn(const word& name, particleTable& table)
     {
         const word path = columns + "/" + name;
         switch (file_.kindOf(path))
         {
             case hdf5Reader::kind::scalars:
-                return get(path, table.scalars[name]);
+                return get(name, table.scalars);
             case hdf5Reader::kind::vectors:
-                return get(path, table.vectors[name]);
+                return get(name, table.vectors);
             case hdf5Reader::kind::integers:
-                return fits(path) ? get(path, table.integers[name]) : void();
+                return fits(path) && get(name, table.integers);
             case hdf5Reader::kind::wideScalars:
                 return getWide(name, table.scalars);
             case hdf5Reader::kind::wideIntegers:
-                return fits(path) ? getWide(name, table.integers) : void();
+                return fits(path) && getWide(name, table.integers);
             default:
                 remarkLost("'" + path + "' has no rows of numbers");
+                return false;
         }
     }
 
@@ -232,13 +290,23 @@ private:
     }
 
     template <class T>
-    void getWide(const word& name, std::map<word, List<T>>& list)
+    bool get(const word& name, std::map<word, List<T>>& list)
+    {
+        List<T> values;
+        get(columns + "/" + name, values);
+        list[name] = std::move(values);
+        return true;
+    }
+
+    template <class T>
+    bool getWide(const word& name, std::map<word, List<T>>& list)
     {
         const word path = columns + "/" + name;
         List<T> flat;
         file_.readWide(path, flat);
         check(path, flat);
         split(flat, name, file_.width(path), list);
+        return true;
     }
 
     void checkWhole(const particleTable& table)
@@ -251,8 +319,8 @@ private:
             file_.fail("its checksum does not fit its content: the file was damaged or edited");
     }
 
-    // Nothing of what was written is gone
-    void checkContents()
+    // What was written, of which nothing may be gone
+    void readContents()
     {
         if (!file_.found(contents))
             file_.fail("'" + contents + "' is missing: the file was damaged");
@@ -262,19 +330,22 @@ private:
         for (word path; std::getline(lines, path);)
             if (!file_.found(path))
                 file_.fail("'" + path + "' is missing: the file was damaged, or edited");
+            else ours_.insert(path);
     }
 
     word path_;
     hdf5Reader file_;
     List<word>& remarks_;
     globalId version_ = 0;
+    std::set<word> ours_;  // paths
+    List<word> foreign_;   // columns
 };
 
 }  // namespace
 
 namedText particleText(const particleTable& table, const word& path)
 {
-    checkTable(table, "Particles are not written to '" + path + "'");
+    checkTable(table, "Particles are not written to '" + path + "'", hasDiverged);
     return {path, composer().bytes(table)};
 }
 

@@ -2,6 +2,7 @@
 #include "particleTableCheck.H"
 
 #include "checksum.H"
+#include "wideColumns.H"
 
 #include <cstdio>
 #include <set>
@@ -23,20 +24,32 @@ word position(const vector& x)
 class tableCheck
 {
 public:
-    tableCheck(const particleTable& table, const word& doing) : table_(table), doing_(doing) {}
+    tableCheck(const particleTable& table, const word& doing, const word& advice)
+        : table_(table), doing_(doing), advice_(advice)
+    {
+    }
 
     void run() const
     {
         finite("position", table_.x);
-        for (const auto& [name, values] : table_.scalars) column(name, values);
-        for (const auto& [name, values] : table_.vectors) column(name, values);
-        for (const auto& [name, values] : table_.integers) sameLength(name, values.size());
+        columns([](const word&) { return true; });
         for (const auto& [name, values] : table_.extra) finiteExtra(name, values);
         names();
     }
 
+    template <class Chosen>
+    void columns(const Chosen& chosen) const
+    {
+        for (const auto& [name, values] : table_.scalars)
+            if (chosen(name)) column(name, values);
+        for (const auto& [name, values] : table_.vectors)
+            if (chosen(name)) column(name, values);
+        for (const auto& [name, values] : table_.integers)
+            if (chosen(name)) sameLength(name, values.size());
+    }
+
 private:
-    [[noreturn]] void fail(const word& reason) const { throw fatalError(doing_ + ": " + reason); }
+    [[noreturn]] void fail(const word& reason) const { throw fatalError(doing_ + reason); }
 
     void sameLength(const word& name, size_t length) const
     {
@@ -59,8 +72,7 @@ private:
         for (size_t i = 0; i < values.size(); ++i)
             if (!isFinite(values[i]))
                 fail("column '" + name + "' is not a finite number at row " + std::to_string(i) +
-                     identity(i) + ", position " + position(table_.x[i]) +
-                     ".  The computation has diverged there; the last file written is sound.");
+                     identity(i) + ", position " + position(table_.x[i]) + ".  " + advice_);
     }
     word identity(size_t row) const
     {
@@ -75,16 +87,27 @@ private:
                 fail("array '" + name + "' is not a finite number at index " + std::to_string(i) +
                      ".");
     }
+    // The component of a field that comes behind another one
+    template <class Columns>
+    static bool isFurther(const word& name, const Columns& columns)
+    {
+        const word field = fieldOf(name);
+        for (size_t k = 1; columns.count(componentName(field, k - 1)); ++k)
+            if (name == componentName(field, k)) return true;
+        return false;
+    }
     void names() const
     {
         std::set<word> seen;
         const auto note = [&](const auto& list, bool isColumn) {
             for (const auto& [name, values] : list)
             {
-                if (name.empty() || name == "." || name.find('/') != word::npos)
+                if (isColumn && isFurther(name, list)) continue;
+                const word field = isColumn && name.ends_with("/0") ? fieldOf(name) : name;
+                if (field.empty() || field == "." || field.find('/') != word::npos)
                     fail("'" + name + "' cannot be the name of a column, array or attribute.");
-                if (isColumn && !seen.insert(name).second)
-                    fail("two columns have the name '" + name + "'.");
+                if (isColumn && !seen.insert(field).second)
+                    fail("two columns have the name '" + field + "'.");
             }
         };
         note(table_.scalars, true);
@@ -95,7 +118,7 @@ private:
     }
 
     const particleTable& table_;
-    word doing_;
+    word doing_, advice_;
 };
 
 }  // namespace
@@ -146,9 +169,27 @@ globalId checksumOf(const particleTable& table)
     return sum.value();
 }
 
-void checkTable(const particleTable& table, const word& doing)
+void checkTable(const particleTable& table, const word& doing, const word& advice)
 {
-    tableCheck(table, doing).run();
+    tableCheck(table, doing + ": ", advice).run();
+}
+
+word takeOutUnsound(particleTable& table, const word& field)
+{
+    const auto isPart = [&](const word& column) { return fieldOf(column) == field; };
+    try
+    {
+        tableCheck(table, "", "").columns(isPart);
+        return "";
+    }
+    catch (const fatalError& e)
+    {
+        const auto takeOut = [&](auto& columns) {
+            std::erase_if(columns, [&](const auto& column) { return isPart(column.first); });
+        };
+        takeOut(table.scalars), takeOut(table.vectors), takeOut(table.integers);
+        return e.what();
+    }
 }
 
 }  // namespace ispf

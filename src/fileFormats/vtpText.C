@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // XML PolyData, https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 #include "particleState.H"
+#include "wideColumns.H"
 
 #include <cstdio>
 
@@ -73,9 +74,11 @@ word vtpText(const particleTable& table, int precision)
     file.array("connectivity", "Int64", 1, index);
     file.array("offsets", "Int64", 1, behind);
     file.text += "</Verts>\n<PointData>\n";
-    for (const auto& [name, values] : table.scalars) file.array(name, "Float64", 1, values);
+    for (const diskColumn<scalar>& c : diskColumns(table.scalars))
+        file.array(c.name, "Float64", int(c.parts.size()), c.flat());
     for (const auto& [name, values] : table.vectors) file.array(name, "Float64", 3, values);
-    for (const auto& [name, values] : table.integers) file.array(name, "Int64", 1, values);
+    for (const diskColumn<globalId>& c : diskColumns(table.integers))
+        file.array(c.name, "Int64", int(c.parts.size()), c.flat());
     return file.text + "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
