@@ -87,6 +87,23 @@ paste <(numbers 0.625/id) <(numbers 0.625/tag) <(numbers 0.625/seventh) <(number
     END { if (wrong || !old || !new) print "of " old " old and " new " new particles " wrong " have lost it" }' > lost
 [ -s lost ] && fail "unknown fields: $(cat lost)"
 
+# A vector field that somebody else has put in stays one, and gets no companion
+newCase membrane foreign
+setEntry $control deltaT 0.0025; setEntry $control endTime 0.005
+setEntry $control writeControl timeStep; setEntry $control writeInterval 2
+echo 'writeFormat ascii;' >> $control
+place; solved
+n=$(ispfDictionary 0.005/uniform/particles -entry nParticles -value)
+{ echo "internalField nonuniform List<vector> $n("; seq "$n" | sed 's/.*/(& 0 -&)/'; echo ");"; } > 0.005/flow
+sorted() { ispfDictionary "$1/flow" -entry internalField -value | tr ')' '\n' | sort; }
+echo 'endTime 0.01;' >> $control; solved
+[ ! -e 0.01/flow:w ] && [ "$(sorted 0.01)" = "$(sorted 0.005)" ] || fail "a vector of others, ascii: $(ls 0.01)"
+echo 'endTime 0.015; writeFormat hdf5;' >> $control; solved
+h5dump -n 1 0.015/particles.hdf > out
+grep -q "PointData/flow$" out && ! grep -q "PointData/flow:w" out || fail "a vector of others, hdf5: $(grep PointData out)"
+# but its fourth component is kept in what is ours
+grep -q "PointData/Up_0:w" out || fail "the pressure of the step before: $(grep PointData out)"
+
 # Stopped by signals at any moment, most of them within a write; the last of each run is sound and goes on alike
 cp -r ../seldom ../signals && cd ../signals || exit 1
 rm -r 0.* postProcessing; setEntry $control writeControl timeStep; setEntry $control writeInterval 1

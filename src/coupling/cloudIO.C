@@ -163,6 +163,11 @@ void readParticlesOf(const particleTable& table, const word& file, particleCloud
     }
 }
 
+bool isZero(const List<scalar>& values)
+{
+    return std::all_of(values.begin(), values.end(), [](scalar v) { return v == 0; });
+}
+
 void readFields(const particleTable& table, particleCloud& cloud)
 {
     for (const auto& [name, values] : table.scalars)
@@ -175,8 +180,9 @@ void readFields(const particleTable& table, particleCloud& cloud)
             List<vec4>& field = cloud.vectors[name];
             for (const vector& v : values) field.push_back(vec4::from(v));
             // the fourth component of a registered field travels as a scalar of the same name
-            if (const auto w = table.scalars.find(name + ":w"); w != table.scalars.end())
-                for (size_t i = 0; i < field.size(); ++i) field[i][3] = w->second[i];
+            const auto w = table.scalars.find(name + ":w");
+            if (w == table.scalars.end() || isZero(w->second)) continue;
+            for (size_t i = 0; i < field.size(); ++i) field[i][3] = w->second[i];
             cloud.scalars.erase(name + ":w");
         }
     if (cloud.nSolid() > 0 && !cloud.vectors.count("x0"))
@@ -201,11 +207,12 @@ particleTable tableOf(const Time& time, const particleCloud& cloud, const bounda
     for (const auto& [name, values] : cloud.scalars) table.scalars[name] = values;
     for (const auto& [name, values] : cloud.integers) table.integers[name] = values;
     for (const auto& [name, values] : cloud.vectors)
+    {
+        List<scalar> w;
         for (label i = 0; i < cloud.n(); ++i)
-        {
-            table.vectors[name].push_back(values[i].xyz());
-            if (name != "x0") table.scalars[name + ":w"].push_back(values[i][3]);
-        }
+            table.vectors[name].push_back(values[i].xyz()), w.push_back(values[i][3]);
+        if (name != "x0" && !isZero(w)) table.scalars[name + ":w"] = std::move(w);
+    }
     table.extra = cloud.history;
     for (const patchBalance& b : walls.balance()) table.extra[balanceOf + b.name] = b.state();
     table.attributes = cloud.notes;
