@@ -180,6 +180,10 @@ shape "$box" "" "$block }"
 generateParticles > out 2>&1 || fail "a rigid zone half in the water: $(tail -n 5 out)"
 shape "$box" "" "$block mayOverlap yes; }"
 refused "mayOverlap of a rigid zone" "Zone walls is rigid" "may lie partly in them" "zones.walls.mayOverlap at line"
+# whichever comes first, and however small the one is that loses of it
+echo "dx 1e-3; placement lattice; zones { ice { phase fluid; shape box; min (-0.002 0 0); max (0.002 0.01 0.01); }
+    ocean { phase fluid; shape box; min (0 0 0); max (0.05 0.05 0.05); } }" > system/particleDict
+refused "ice half in the ocean" "Zone ocean lies partly in zone ice, which comes before it, and takes 2e-07 m3 of it" "mayOverlap yes"
 shape "$box" "" "pea { phase fluid; shape sphere; centre (0.005 0.005 0.005); radius 0.003; }"
 generateParticles > out 2>&1 && grep -q "overlap: pea takes" out || fail "pea: $(tail -n 5 out)"
 # Layers that meet at cyclic planes: two particles, pressed into a corner, stayed in one place

@@ -74,6 +74,9 @@ denied() { ispfPostProcess "${@:2}" > log 2>&1 && fail "accepted: ${*:2}"; says 
 denied "Did you mean 'most'" -func mots
 denied "nearest time is 0.[12]" -time 0.15
 denied "is not a list of times" -time x
+mv 0.3 0.30001  # a name of few digits; the state's time is chosen as well
+ispfPostProcess -func extremes -time 0.3 > log 2>&1 || fail "-time of a state: $(tail -n 3 log)"
+mv 0.30001 0.3
 denied "is not a list of times" -time ""
 denied "No particles were written at times 7:" -time 7:
 
@@ -248,7 +251,7 @@ mv 0.3 ../bad
 solved
 cp good.hdf ../bad/particles.hdf; same 0.3 ../bad "from the state before"
 cp 0.2/particles.hdf 0.3/particles.hdf; solved
-says "The particles in .*/0.3 were written at time 0.2, the clock beside them says another: it is believed"
+says "The particles in .*/0.3 were written at time 0.2: they are taken for those of time 0.3"
 cp good.hdf 0.3/particles.hdf
 echo "startFrom startTime; startTime 0.25;" >> $control
 refused "There are no particles of time 0.25: .*/0.25/particles.hdf is missing"

@@ -56,6 +56,17 @@ newCase membrane limits; place
 setEntry $solution coupling projection
 limited stiffness "" 0.1
 
+# ---- a step that is made too long while the run goes on is refused before it is taken ----------------------
+newCase piston later; place
+setEntry $control writeControl none; setEntry $control endTime 1e4; setEntry $control deltaT 0.002
+echo "runTimeModifiable yes;" >> $control
+ispfFsiFoam > log 2>&1 & run=$!
+until grep -q "^Time = 0.004" log || ! kill -0 $run 2> /dev/null; do sleep 0.01; done
+setEntry $control deltaT 0.5
+wait $run && fail "a step of 0.5 s was accepted during a run"
+says "deltaT 0.5 s is beyond the .* limit"
+[ "$(grep -c "^deltaT = 0.002$" log)" = "$(grep -c "^deltaT = " log)" ] || fail "another step was taken: $(grep "^deltaT" log | tail -n 1)"
+
 # ---- words that nobody reads, values out of range, files that are missing ------------------------------
 # with file, text, what is said: a case of one step, the text added to the file
 with() {
@@ -96,7 +107,7 @@ setEntry $control endTime 0.01  # a step is longer than the run
 refused "deltaT 0.02 s is twice as long as the run or longer, from 0 to endTime 0.01 s"
 setEntry $control endTime 0.011
 solved
-grep -qx "endTime 0.011 s lies between two steps of deltaT 0.02 s: the run ends at 0.02 s" log || fail "no word of another end"
+grep -qx "endTime 0.011 s lies between two steps of deltaT 0.02 s: the run ends at 0.02 s, and tables over time are asked up to there" log || fail "no word of another end"
 [ -e 0.02/particles.hdf ] && seriesComplete "one long step" || fail "no step: $(tail -n 4 log)"
 newCase membrane flat; place
 setEntry $control endTime 0.01

@@ -60,9 +60,11 @@ bool inflow::readVelocity(const dictionary& dict, const word& caseFolder)
         {
             velocity_ = vectorFunction1::New("velocity", dict, caseFolder, dims::velocity);
         }
-        catch (const fatalError&)
+        catch (const fatalError& asVector)
         {
-            throw asNumber;
+            if (word(asVector.what()) == asNumber.what()) throw asNumber;
+            throw fatalError(word(asNumber.what()) + "\nNor is it a vector over time: " + asVector.what(),
+                             asNumber.location());
         }
     }
     const List<vector> parts = velocity_->parts();

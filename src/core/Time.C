@@ -63,6 +63,7 @@ Time::Time(const word& caseFolder) : Time(caseFolder, false)
 void Time::goTo(scalar t)
 {
     const scalar start = startTime_;
+    stateFolder_.clear();
     startTime_ = value_ = previous_ = t, deltaTBehind_ = 0;
     precision_ = askedPrecision(control_), grownPrecision_ = 0;  // each folder has its own
     writeNow_ = answer::unknown;
@@ -139,13 +140,14 @@ word Time::remarkOnSteps() const
     const scalar end = value_ + dt * std::ceil((endTime_ - value_ - slack()) / dt - 0.5);
     if (!keepsDeltaT() || !std::isfinite(end) || std::abs(end - endTime_) < 1e-6 * dt) return "";
     return "endTime " + str(endTime_) + " s lies between two steps of deltaT " + str(dt) +
-           " s: the run ends at " + str(end) + " s\n";
+           " s: the run ends at " + str(end) + " s" +
+           (end > endTime_ ? ", and tables over time are asked up to there" : "") + "\n";
 }
 
 Time& Time::operator++()
 {
-    if (modifiable_) rereadIfModified();
     const scalar target = nextTarget();
+    stateFolder_.clear();
     previous_ = value_;
     value_ += deltaT_, deltaTBehind_ = deltaT_;
     // Land on the instant itself, not beside it by rounding.  Without one: ten steps of 0.1 make 1
@@ -159,6 +161,7 @@ Time& Time::operator++()
 
 void Time::rewind(scalar value, label index)
 {
+    stateFolder_.clear();
     value_ = previous_ = value;
     index_ = index;
     writeNow_ = answer::unknown;

@@ -164,6 +164,7 @@ void Time::readWriteControls(const dictionary& d)
 
 void Time::rereadIfModified()
 {
+    if (!modifiable_) return;
     const std::int64_t stamp = modificationStamp(controlFile());
     if (stamp == controlStamp_ || stamp == 0) return;
     controlStamp_ = stamp;
@@ -190,13 +191,24 @@ scalar Time::chosenStart() const
     const List<word> valid = {"startTime", "firstTime", "latestTime"};
     const word from = control_.chooseOrDefault("startFrom", valid, "latestTime");
     const bool given = control_.found("startTime");
-    if (from == "startTime") return control_.get<scalar>("startTime", dims::time);
+    if (from == "startTime") return namedTime(control_.get<scalar>("startTime", dims::time));
     const scalar otherwise = given ? control_.get<scalar>("startTime", dims::time) : 0;
     List<folderOfTime> candidates = folders();
     if (from == "firstTime") return candidates.empty() ? otherwise : candidates.front().t;
     for (; !candidates.empty() && !hasState(candidates.back().name); candidates.pop_back())
         passOver(case_ + "/" + candidates.back().name);
     return candidates.empty() ? otherwise : candidates.back().t;
+}
+
+// As a folder's name reads, where t is what its state says to the last digit
+scalar Time::namedTime(scalar t) const
+{
+    const auto isNear = [t](scalar other) { return std::abs(other - t) <= 1e-12 * std::abs(t); };
+    const List<folderOfTime> all = folders();
+    if (std::any_of(all.begin(), all.end(), [&](const auto& f) { return isNear(f.t); })) return t;
+    for (const folderOfTime& f : all)
+        if (isNear(timeOf(f))) return f.t;
+    return t;
 }
 
 List<Time::folderOfTime> Time::folders() const
@@ -213,6 +225,7 @@ List<Time::folderOfTime> Time::folders() const
 
 word Time::folderName(scalar t) const
 {
+    if (!stateFolder_.empty() && t == value_) return stateFolder_;
     for (const folderOfTime& f : folders())
         if (std::abs(f.t - t) <= 1e-12 * std::abs(t)) return f.name;
     return timeName(t);
@@ -236,8 +249,12 @@ void Time::readState()
         recall(value, index, deltaT, d.path());
     }
     // as many digits as the folder's name has, so that this time goes by that name
-    if (isFolder(case_ + "/" + folderName(named)))
-        growPrecision(std::abs(value_ - named) + 1e-12 * std::abs(value_));
+    const word name = folderName(named);
+    if (scalar number; isFolder(case_ + "/" + name) && readNumber(name, number))
+    {
+        growPrecision(std::abs(value_ - number) + 1e-12 * std::abs(value_));
+        stateFolder_ = name;
+    }
 }
 
 scalar Time::timeOf(const folderOfTime& f) const
@@ -264,7 +281,7 @@ void Time::recall(scalar value, label index, scalar deltaT, const word& source)
     {
         warning(source + " speaks of time " + str(value, 10) +
                 ", its folder of another: the folder's name is believed.");
-        return;
+        value = value_;
     }
     startTime_ = value_ = previous_ = value;
     index_ = index, deltaTBehind_ = deltaT;

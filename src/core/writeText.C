@@ -41,12 +41,11 @@ public:
                              replaces_ ? 0600 : 0666))
     {
         if (descriptor_ < 0) fail(path_, "opening '" + temporary_ + "'", errno);
+        if (!replaces_ || !S_ISDIR(earlier_.st_mode)) return;
+        discard();  // nobody else would
+        fail(path_, "replacing it", EISDIR);
     }
-    ~temporaryFile()
-    {
-        if (descriptor_ >= 0) ::close(descriptor_);
-        if (!moved_) ::unlink(temporary_.c_str());
-    }
+    ~temporaryFile() { discard(); }
     temporaryFile(const temporaryFile&) = delete;
     temporaryFile& operator=(const temporaryFile&) = delete;
 
@@ -78,6 +77,11 @@ public:
     const word& path() const { return path_; }
 
 private:
+    void discard()
+    {
+        if (descriptor_ >= 0) ::close(descriptor_);
+        if (!moved_) ::unlink(temporary_.c_str());
+    }
     // To give a file away is for its system's administrator, and some file systems know no modes
     void takeOver() const
     {

@@ -128,17 +128,21 @@ void writeSeriesOf(const Time& time, const word& file, const List<word>& without
 void setClock(Time& time, const particleTable& table, const word& file)
 {
     if (!table.attributes.count("timeIndex")) return;
-    if (time.hasClock())
-    {
-        const scalar t = table.scalarAttribute("time");
-        if (std::abs(t - time.value()) > 1e-9 * std::abs(t))
-            warning("The particles in " + file + " were written at time " + str(t, 10) +
-                    ", the clock beside them says another: it is believed");
-        return;
-    }
-    warning(time.folder() + "/uniform/time is missing: the clock is set from the particles");
-    time.recall(table.scalarAttribute("time"), label(table.scalarAttribute("timeIndex")),
-                table.scalarAttribute("deltaT"), file);
+    const scalar t = table.scalarAttribute("time"), deltaT = table.scalarAttribute("deltaT");
+    const label index = label(table.scalarAttribute("timeIndex"));
+    if (!time.hasClock())
+        warning(time.folder() + "/uniform/time is missing: the clock is set from the particles");
+    else if (std::abs(t - time.value()) > 1e-9 * std::abs(t))
+        return warning("The particles in " + file + " were written at time " + str(t, 10) +
+                       ": they are taken for those of time " + str(time.value(), 10) +
+                       ", as their folder or uniform/time in it says");
+    else if (index != time.timeIndex() || deltaT != time.deltaTBehind())
+        warning(time.folder() + "/uniform/time is not of these particles: step " +
+                std::to_string(time.timeIndex()) + " of " + str(time.deltaTBehind()) +
+                " s, not " + std::to_string(index) + " of " + str(deltaT) +
+                " s. The clock is set from the particles");
+    else return;
+    time.recall(t, index, deltaT, file);
 }
 
 void readParticlesOf(const particleTable& table, const word& file, particleCloud& cloud)

@@ -56,19 +56,21 @@ void setLayers(const zoneGeometry& geometry, const placedParticles& placed,
 // By its own particles.  One beside a face that two zones share lies in one of them only
 List<zoneOverlap> zoneOverlaps(const zoneGeometry& geometry, const placedParticles& placed)
 {
-    constexpr scalar sag = 0.01;  // of a zone's particles
+    constexpr scalar sag = 0.02;  // of a zone's particles
     const label n = label(placed.x.size());
     List<List<label>> claims(n);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i) claims[i] = geometry.claims(placed.x[i]);
     });
     std::map<std::pair<label, label>, zoneOverlap> taken;
-    List<label> own(geometry.zones().size(), 0), shared = own;
+    List<label> own(geometry.zones().size(), 0), shared = own, drawn = own;
     for (label i = 0; i < n; ++i)
     {
         const label zone = placed.zone[i];
         if (placed.strip[i] >= 0) continue;
         ++own[zone];
+        for (const label drawnHere : std::set<label>(claims[i].begin(), claims[i].end()))
+            if (drawnHere >= 0) ++drawn[drawnHere];
         const auto at = std::find(claims[i].rbegin(), claims[i].rend(), zone);
         std::set<label> others(at, claims[i].rend());
         others.erase(zone), others.erase(-1);
@@ -81,11 +83,13 @@ List<zoneOverlap> zoneOverlaps(const zoneGeometry& geometry, const placedParticl
         }
     }
     List<zoneOverlap> all;
+    const scalar cell = std::pow(geometry.dx(), geometry.nDims());
     for (auto& [zones, o] : taken)
     {
-        o.middle *= std::pow(geometry.dx(), geometry.nDims()) / o.volume;
-        const scalar part = scalar(shared[o.zone]) / own[o.zone];
-        o.crosses = part > sag && part < 1 - sag;
+        o.middle *= cell / o.volume;
+        const scalar part = scalar(shared[o.zone]) / own[o.zone],
+                     partOfOther = o.volume / cell / drawn[o.of];
+        o.crosses = part < 1 - sag && std::max(part, partOfOther) > sag;
         all.push_back(o);
     }
     return all;

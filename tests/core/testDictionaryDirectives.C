@@ -83,6 +83,8 @@ TEST_CASE("functions that users of OpenFOAM expect in formulas")
     CHECK(value("rand()") == relative(0.749902, 1e-6));
     CHECK(value("rand( ) - rand(0)") == 0);
     CHECK(value("rand(3)") == relative(0.863673, 1e-6));
+    CHECK(value("pos0 (0) + sqrt  (9) + 2*(1 + (3 - 1)) + pow (2, 3)*( 1 )") == 18);
+    CHECK(value("rand (3)") == relative(0.863673, 1e-6));
     CHECK(value("rand(7.9)") == relative(0.386626, 2e-6));
     CHECK(value("sqrt(9) + cbrt(8) + mag(-2) + magSqr(3) + abs(-1)") == 17);
     CHECK(value("min(3, 1) + max(2, 5) + hypot(3, 4) + pow(2, 10)") == 1035);

@@ -18,7 +18,9 @@ TEST_CASE("steps are deltaT whatever endTime says; the run ends with the one nea
         for (const scalar s : r.steps) CHECK(s == relative(t.deltaT()));
         CHECK(remark.empty() == (std::abs(r.last - t.endTime()) < 1e-12));
         if (!remark.empty())
-            CHECK(remark.find("the run ends at " + str(r.last) + " s\n") != word::npos);
+            CHECK(remark.find("the run ends at " + str(r.last) + " s") != word::npos);
+        CHECK((remark.find("are asked up to there") != word::npos) ==
+              (r.last > t.endTime() + 1e-12));
         CHECK(std::abs(r.last - t.endTime()) <= t.deltaT() / 2);
         return r;
     };

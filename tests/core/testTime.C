@@ -3,6 +3,7 @@
 #include "clockCase.H"
 #include "errorOf.H"
 #include "fileNames.H"
+#include "relative.H"
 
 #include <cmath>
 #include <csignal>
@@ -125,6 +126,23 @@ TEST_CASE("stopAt, and changes to controlDict while running")
     CHECK(changed("endTime; endTime 5; writeInterval 0").last == 9);
 }
 
+TEST_CASE("a deltaT that changes while running is taken by no step before it is asked for, and leads to instants")
+{
+    const word control =
+        "endTime 2; writeControl adjustableRunTime; writeInterval 0.5; runTimeModifiable yes; "
+        "deltaT ";
+    const clockCase c(control + "0.1;");
+    Time t = c.time();
+    t.setDeltaT(0.1), ++t;
+    c.write("system/controlDict", control + "0.09;");
+    t.setDeltaT(0.1), ++t;
+    CHECK(t.value() == 0.2);
+    t.rereadIfModified();
+    REQUIRE(t.controlDict().get<scalar>("deltaT") == 0.09);
+    t.setDeltaT(0.09);
+    CHECK(t.deltaT() == relative(0.3 / 4));
+}
+
 TEST_CASE("requestStop ends the step, with or without writing")
 {
     const clockCase c("deltaT 1; endTime 9; writeControl none;");
@@ -204,6 +222,19 @@ TEST_CASE("folder names tell the times, after a restart too")
         post.goTo(f.t);
         CHECK(post.timeName() == f.name);
     }
+}
+
+TEST_CASE("startTime may be what the folder's name says, or its state to the last digit")
+{
+    const clockCase c(
+        "startFrom startTime; startTime 0.0125; deltaT 0.0125; endTime 1; writeControl none; "
+        "timePrecision 2;");
+    c.write("0.013/particles.hdf", "x");
+    c.write("0.013/uniform/time", "value 0.0125; index 1; deltaT 0.0125;");
+    CHECK(c.time().value() == 0.0125);
+    CHECK(c.time().timeIndex() == 1);
+    CHECK(c.time().folder() == c.path + "/0.013");
+    CHECK(c.time().timeName() == "0.013");
 }
 
 TEST_CASE("the time of a state is that of its folder to all digits")

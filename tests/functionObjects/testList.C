@@ -70,7 +70,7 @@ TEST_CASE("functions that change during a run")
     f.start();
     const auto change = [&](const word& functions) {
         t.write("system/controlDict", t.control + "functions {" + functions + "}");
-        ++*r.time, f.execute();
+        r.time->rereadIfModified(), ++*r.time, f.execute();
     };
     ++*r.time, f.execute();
     change("a { type minMax; } c { type minMax; writeInterval 1; } d { type minMax; }");

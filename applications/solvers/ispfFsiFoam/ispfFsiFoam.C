@@ -86,6 +86,7 @@ int run(const argList& args)
         info() << "ExecutionTime = " << str(time.elapsedCpuTime(), 4)
                << " s  ClockTime = " << str(time.elapsedClockTime(), 4) << " s\n\n";
         bar.update(rule);
+        time.rereadIfModified();
     }
     functions.end();
     info() << "End\n";

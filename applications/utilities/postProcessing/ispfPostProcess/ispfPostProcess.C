@@ -66,7 +66,7 @@ List<Time::folderOfTime> chosenTimes(const Time& time, const argList& args)
         if (time.hasState(f.name)) times.push_back(f);
     if (times.empty())
         throw fatalError("There is no time folder with particles in '" + args.caseFolder() + "'");
-    if (args.found("time")) return selectTimes(times, args.option("time"));
+    if (args.found("time")) return selectTimes(time, times, args.option("time"));
     if (args.found("latestTime")) return {times.back()};
     return times;
 }

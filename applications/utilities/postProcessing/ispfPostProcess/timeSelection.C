@@ -33,7 +33,8 @@ const Time::folderOfTime& nearest(const List<Time::folderOfTime>& times, scalar 
 
 }  // namespace
 
-List<Time::folderOfTime> selectTimes(const List<Time::folderOfTime>& times, const word& ranges)
+List<Time::folderOfTime> selectTimes(const Time& time, const List<Time::folderOfTime>& times,
+                                     const word& ranges)
 {
     word blanks = ranges;
     std::replace(blanks.begin(), blanks.end(), ',', ' ');
@@ -49,8 +50,11 @@ List<Time::folderOfTime> selectTimes(const List<Time::folderOfTime>& times, cons
         const scalar slack = sameTime * std::max(std::abs(low) < all ? std::abs(low) : 0,
                                                  std::abs(high) < all ? std::abs(high) : 0);
         bool any = false;
-        for (size_t k = 0; k < times.size(); ++k)
-            if (times[k].t >= low - slack && times[k].t <= high + slack) chosen[k] = any = true;
+        const auto choose = [&](size_t k, scalar t) {
+            if (t >= low - slack && t <= high + slack) chosen[k] = any = true;
+        };
+        for (size_t k = 0; k < times.size(); ++k) choose(k, times[k].t);
+        for (size_t k = 0; k < times.size() && !any; ++k) choose(k, time.timeOf(times[k]));
         if (!any && colon == word::npos)
             throw fatalError("No particles were written at time " + range +
                              "; the nearest time is " + nearest(times, low).name + ".");
