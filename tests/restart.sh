@@ -60,7 +60,7 @@ same 0.625 ../monolithic.no/0.625 "written once and three times"
 cp -r ../monolithic.no ../prolonged && cd ../prolonged || exit 1
 rm -r 0.* postProcessing; setEntry $control endTime 0.1289
 solved
-grep -qx "endTime 0.1289 s lies between two steps of deltaT 0.0025 s: the run ends at 0.13 s" log || fail "prolonged: no word of the end"
+grep -qx "endTime 0.1289 s lies between two steps of deltaT 0.0025 s: the run ends at 0.13 s, and tables over time are asked up to there" log || fail "prolonged: no word of the end"
 [ "$(grep '^Time = ' log | tail -n 1)" = "Time = 0.13" ] || fail "prolonged: $(grep '^Time = ' log | tail -n 1)"
 same 0.125 ../monolithic.no/0.125 "to 0.1289 and to 0.625"
 setEntry $control endTime 0.25
