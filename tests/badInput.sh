@@ -122,6 +122,8 @@ refused "Cannot write.*particles.hdf" "rm -r 0 0.* constant/*.hdf *.series" bash
 finer="sed -i 's/^dx .*/dx 0.005;/' system/particleDict"
 refused "Cannot write.*particles.hdf" "$finer" bash -c "$full generateParticles"
 find . -name '*.tmp' | grep . && fail "temporary files are left by generateParticles"
+refused "Cannot write '.*0/particles.hdf': replacing it: Is a directory" "$finer; rm 0/particles.hdf; mkdir 0/particles.hdf" generateParticles
+find . -name '*.tmp' | grep . && fail "temporary files are left beside a folder in the place of a file"
 made() { cksum 0/* constant/*.hdf constant/triSurface/* | sort -k 3; }
 cd "$scratch/sound" || exit 1; old=$(made)
 cp -r . ../finer; cd ../finer || exit 1; eval "$finer"; place; new=$(made)

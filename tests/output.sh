@@ -253,6 +253,9 @@ cp good.hdf ../bad/particles.hdf; same 0.3 ../bad "from the state before"
 cp 0.2/particles.hdf 0.3/particles.hdf; solved
 says "The particles in .*/0.3 were written at time 0.2: they are taken for those of time 0.3"
 cp good.hdf 0.3/particles.hdf
+cp 0.3/uniform/time goodTime; sed -i 's/^index .*/index 77;/; /^checksum/d' 0.3/uniform/time; solved
+says "0.3/uniform/time is not of these particles: step 77 of 0.01 s, not 30 of 0.01 s. The clock is set from the particles"
+mv goodTime 0.3/uniform/time
 echo "startFrom startTime; startTime 0.25;" >> $control
 refused "There are no particles of time 0.25: .*/0.25/particles.hdf is missing"
 says "Times with particles: 0 0.1 0.2 0.3; startFrom and startTime"
