@@ -56,6 +56,12 @@ rm -r 0.* postProcessing; setEntry $control writeInterval 0.625
 solved
 same 0.625 ../monolithic.no/0.625 "written once and three times"
 
+# A table that begins where the run goes on: nobody asks for the step before
+newCase piston covered; place
+moves() { sed -i "s/displacement .*/displacement { type table; values ($1); outOfBounds error; } }/" constant/boundary; }
+moves "(0 0) (0.02 1e-4) (0.04 2e-4)"; setEntry $control endTime 0.02; setEntry $control writeInterval 2; solved
+moves "(0.02 1e-4) (0.04 2e-4)"; setEntry $control endTime 0.04; solved
+
 # Ended between two steps, then let run on: endTime changes no step
 cp -r ../monolithic.no ../prolonged && cd ../prolonged || exit 1
 rm -r 0.* postProcessing; setEntry $control endTime 0.1289

@@ -63,8 +63,9 @@ bool inflow::readVelocity(const dictionary& dict, const word& caseFolder)
         catch (const fatalError& asVector)
         {
             if (word(asVector.what()) == asNumber.what()) throw asNumber;
-            throw fatalError(word(asNumber.what()) + "\nNor is it a vector over time: " + asVector.what(),
-                             asNumber.location());
+            throw fatalError(
+                word(asNumber.what()) + "\nNor is it a vector over time: " + asVector.what(),
+                asNumber.location());
         }
     }
     const List<vector> parts = velocity_->parts();

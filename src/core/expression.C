@@ -2,11 +2,11 @@
 #include "expression.H"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <muParser.h>
 #include <numbers>
+#include <re2/re2.h>
 
 namespace ispf
 {
@@ -106,15 +106,10 @@ word plainFormula(word text)
         text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
     for (const char* space : {"Foam::", "std::", "constant::mathematical::"})
         replaceAll(text, space, "");
-    // no blanks within the parentheses of a function without arguments, nor between a name and its parenthesis
-    for (size_t i = text.find("( "); i != word::npos; i = text.find("( ", i)) text.erase(i + 1, 1);
-    for (size_t i = text.find(" ("); i != word::npos;)
-    {
-        const size_t last = text.find_last_not_of(' ', i);
-        const bool isName = last != word::npos && (std::isalnum((unsigned char)text[last]) || text[last] == '_');
-        if (isName) text.erase(last + 1, i - last);
-        i = text.find(" (", isName ? last : i + 1);
-    }
+    // no blanks before and behind the parenthesis of a function
+    static const RE2 before(R"((\w) +\()"), behind(R"(\( +)");
+    RE2::GlobalReplace(&text, before, R"(\1()");
+    RE2::GlobalReplace(&text, behind, "(");
     replaceAll(text, "pi()", "pi");
     replaceAll(text, "rand()", "rand(0)");
     return text;

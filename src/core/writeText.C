@@ -41,11 +41,12 @@ public:
                              replaces_ ? 0600 : 0666))
     {
         if (descriptor_ < 0) fail(path_, "opening '" + temporary_ + "'", errno);
-        if (!replaces_ || !S_ISDIR(earlier_.st_mode)) return;
-        discard();  // nobody else would
-        fail(path_, "replacing it", EISDIR);
     }
-    ~temporaryFile() { discard(); }
+    ~temporaryFile()
+    {
+        if (descriptor_ >= 0) ::close(descriptor_);
+        if (!moved_) ::unlink(temporary_.c_str());
+    }
     temporaryFile(const temporaryFile&) = delete;
     temporaryFile& operator=(const temporaryFile&) = delete;
 
@@ -77,11 +78,6 @@ public:
     const word& path() const { return path_; }
 
 private:
-    void discard()
-    {
-        if (descriptor_ >= 0) ::close(descriptor_);
-        if (!moved_) ::unlink(temporary_.c_str());
-    }
     // To give a file away is for its system's administrator, and some file systems know no modes
     void takeOver() const
     {
@@ -121,6 +117,7 @@ void writeTexts(const List<namedText>& files)
         std::error_code error;
         std::filesystem::create_directories(folder, error);
         if (error) fail(path, "creating folder '" + folder + "'", error.value());
+        if (std::filesystem::is_directory(path, error)) fail(path, "replacing it", EISDIR);
         written.emplace_back(path);
         written.back().write(text);
         written.back().finish();

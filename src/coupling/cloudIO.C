@@ -138,8 +138,8 @@ void setClock(Time& time, const particleTable& table, const word& file)
                        ", as their folder or uniform/time in it says");
     else if (index != time.timeIndex() || deltaT != time.deltaTBehind())
         warning(time.folder() + "/uniform/time is not of these particles: step " +
-                std::to_string(time.timeIndex()) + " of " + str(time.deltaTBehind()) +
-                " s, not " + std::to_string(index) + " of " + str(deltaT) +
+                std::to_string(time.timeIndex()) + " of " + str(time.deltaTBehind()) + " s, not " +
+                std::to_string(index) + " of " + str(deltaT) +
                 " s. The clock is set from the particles");
     else return;
     time.recall(t, index, deltaT, file);

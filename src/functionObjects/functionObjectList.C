@@ -166,7 +166,7 @@ bool functionObjectList::due(trigger& t) const
 // Where they are now to the last digit, and as they have moved in the step that led here: what a state tells as well
 void functionObjectList::placeWalls()
 {
-    if (items_.empty()) return;
+    if (items_.empty()) return;  // nobody asks, and tables need not cover the step behind
     const scalar now = case_.time.value();
     if (case_.time.timeIndex() == 0) case_.walls->setStep(now, case_.stepEnd());
     else case_.walls->setStepBehind(now - case_.time.deltaTBehind(), now);

@@ -105,8 +105,9 @@ TEST_CASE("a profile by table, a direction, a vector, and what cannot be")
     CHECK_ERROR(f.given("velocity table ((0 0.1) (1 x));"), "finite number is wanted", 1);
 
     // what is wrong with a vector is said, too
-    CHECK_ERROR(f.given("velocity { type table; values ((0 (1 0 0)) (1 (1 0 0))); units ([s] [m]); }"),
-                "Nor is it a vector over time: ", 1);
+    CHECK_ERROR(
+        f.given("velocity { type table; values ((0 (1 0 0)) (1 (1 0 0))); units ([s] [m]); }"),
+        "Nor is it a vector over time: ", 1);
 
     CHECK_THROWS_AS(f.given("velocity 0.1; direction (1 0 0);"), fatalError);  // along the face
     CHECK_THROWS_AS(f.given("velocity 0.1; direction (0 0 1);"), fatalError);  // out of the fluid

@@ -126,7 +126,9 @@ TEST_CASE("stopAt, and changes to controlDict while running")
     CHECK(changed("endTime; endTime 5; writeInterval 0").last == 9);
 }
 
-TEST_CASE("a deltaT that changes while running is taken by no step before it is asked for, and leads to instants")
+TEST_CASE(
+    "a deltaT that changes while running is taken by no step before it is asked for, and leads to "
+    "instants")
 {
     const word control =
         "endTime 2; writeControl adjustableRunTime; writeInterval 0.5; runTimeModifiable yes; "
