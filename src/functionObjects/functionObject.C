@@ -13,6 +13,7 @@ std::unique_ptr<functionObject> functionObject::New(const word& name, const dict
         std::unique_ptr<functionObject> (*)(const word&, const dictionary&, const fsiCase&);
     static const std::map<word, maker> types = {{"cavityVolume", newCavityVolume},
                                                 {"energy", newEnergy},
+                                                {"errorNorm", newErrorNorm},
                                                 {"forces", newForces},
                                                 {"lineProfile", newLineProfile},
                                                 {"minMax", newMinMax},

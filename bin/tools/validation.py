@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a tutorial's validation/compare and validation/study need (Python's standard library alone): entries of the
+case's dictionaries, the tables of function objects, and a report of quantities beside their references.
+
+    from validation import entry, number, table, Report
+    nu = number("constant/physicalProperties", "nu")
+    report = Report()
+    report.check("decay rate", reference=8*pi**2*nu, value=rate, unit="1/s", tolerance=0.01,
+                 reason="first order in time")
+    sys.exit(report.write())
+
+RunFunctions puts this folder on PYTHONPATH and the programs on PATH."""
+import csv
+import math
+import os
+import re
+import subprocess
+import sys
+
+COLUMNS = ["quantity", "reference", "value", "unit", "error", "tolerance", "status", "reason"]
+
+
+def entry(file, key, default=None):
+    """An entry as the programs read it, without quotes; SystemExit with their words if it is not there"""
+    found = subprocess.run(["ispfDictionary", file, "-entry", key, "-value"], capture_output=True, text=True)
+    if found.returncode == 0:
+        return found.stdout.strip().replace('"', "")
+    if default is not None:
+        return default
+    sys.exit(found.stderr or found.stdout)
+
+
+def numbers(text):
+    return [float(word) for word in re.findall(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", text)]
+
+
+def number(file, key, default=None):
+    """A number in SI without a unit"""
+    text = entry(file, key, None if default is None else str(default))
+    try:
+        return float(text)
+    except ValueError:
+        sys.exit(f"{file}: '{key}' is '{text}', not a number without a unit")
+
+
+def vector(file, key):
+    return numbers(entry(file, key))
+
+
+def viscosity():
+    """nu [m^2/s] and rho [kg/m^3] of constant/physicalProperties"""
+    file = "constant/physicalProperties"
+    rho = number(file, "rho")
+    nu = entry(file, "nu", "")
+    return (float(nu) if nu else number(file, "mu") / rho), rho
+
+
+def table(path):
+    """Rows of numbers of a function object's table: columns as titled; vectors are three of them"""
+    with open(path, encoding="utf-8") as lines:
+        return [[float(w) for w in re.sub(r"[(),]", " ", line).split()] for line in lines
+                if line.strip() and not line.startswith("#")]
+
+
+def instants(folder):
+    """Names of the times that a function object has written, in their order"""
+    return sorted((t for t in os.listdir(folder) if re.fullmatch(r"[\d.eE+-]+", t)), key=float)
+
+
+def interpolated(x, xs, ys):
+    """Between the two points of a rising list that hold x; nan beyond them"""
+    for a, b, ya, yb in zip(xs, xs[1:], ys, ys[1:]):
+        if a <= x <= b:
+            return ya if b == a else ya + (yb - ya) * (x - a) / (b - a)
+    return math.nan
+
+
+def slope(xs, ys):
+    """Of the line of least squares"""
+    n, mx, my = len(xs), sum(xs) / len(xs), sum(ys) / len(ys)
+    return sum((x - mx) * (y - my) for x, y in zip(xs, ys)) / sum((x - mx) ** 2 for x in xs)
+
+
+class Report:
+    """Quantities beside their references, as a table on the terminal and in comparison/summary.csv.  A run that
+    ispfRunTutorials has shortened is not judged"""
+
+    def __init__(self, folder="comparison"):
+        self.rows, self.folder = [], folder
+        self.judges = not os.environ.get("ISPF_STEPS")
+
+    def check(self, quantity, reference, value, tolerance, reason, unit="", scale=None):
+        """error: (value - reference)/scale, |reference| by default; it must not be larger than the tolerance, which
+        has a reason"""
+        scale = abs(reference) if scale is None else scale
+        error = (value - reference) / scale if scale else math.nan
+        status = "pass" if abs(error) <= tolerance else "FAIL"  # nan fails
+        self._add(quantity, reference, value, unit, error, tolerance, status, reason)
+
+    def below(self, quantity, value, limit, reason, unit=""):
+        """A quantity that would be 0, judged by its size alone"""
+        status = "pass" if abs(value) <= limit else "FAIL"
+        self._add(quantity, 0.0, value, unit, value, limit, status, reason)
+
+    def atLeast(self, quantity, value, limit, reason, unit=""):
+        """An order of convergence: more is no error"""
+        status = "pass" if value >= limit else "FAIL"
+        self._add(quantity, limit, value, unit, min(0.0, value - limit), 0.0, status, reason)
+
+    def note(self, quantity, value, reason, unit="", reference=math.nan):
+        """What is told and not judged"""
+        self._add(quantity, reference, value, unit, math.nan, math.nan, "told", reason)
+
+    def _add(self, quantity, reference, value, unit, error, tolerance, status, reason):
+        if not self.judges:
+            status = "shortened"
+        self.rows.append([quantity, reference, value, unit, error, tolerance, status, reason])
+
+    def write(self):
+        """1 if a quantity is outside its tolerance, else 0"""
+        os.makedirs(self.folder, exist_ok=True)
+        text = lambda v: "" if isinstance(v, float) and math.isnan(v) else f"{v:.6g}" if isinstance(v, float) else v
+        with open(os.path.join(self.folder, "summary.csv"), "w", newline="", encoding="utf-8") as file:
+            lines = csv.writer(file, lineterminator="\n")
+            lines.writerow(COLUMNS)
+            # a value that is not a number stays to be seen
+            lines.writerows([[r[0], text(r[1]), f"{r[2]:.6g}"] + [text(v) for v in r[3:]] for r in self.rows])
+        print(f"{'quantity':<44} {'reference':>12} {'ours':>12} {'unit':<8} {'error':>10} {'tolerance':>10}  status")
+        for quantity, reference, value, unit, error, tolerance, status, _ in self.rows:
+            print(f"{quantity:<44} {text(float(reference)):>12} {value:>12.6g} {unit:<8} {text(error):>10} "
+                  f"{text(float(tolerance)):>10}  {status}")
+        return int(any(r[6] == "FAIL" for r in self.rows))

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Usage: validationReport.py folder root < plan.  Gathers what ispfValidate has run in `folder`, one line of the plan
+"tutorial variant tier changes" each, into summary.csv and report.md.  Status 1 if anything is FAIL."""
+import csv
+import os
+import re
+import sys
+
+COLUMNS = ["case", "quantity", "reference", "value", "unit", "error", "tolerance", "status", "tier", "particles", "steps",
+           "cpuSeconds"]
+
+
+def cost(case):
+    """Particles, steps and CPU seconds of the solver's logs, those of interrupted runs with them"""
+    particles, steps, seconds = "", 0, 0.0
+    for folder, _, files in os.walk(case):
+        for name in files:
+            if not name.startswith("log.ispfFsiFoam"):
+                continue
+            last = 0.0
+            with open(os.path.join(folder, name), encoding="utf-8", errors="replace") as log:
+                for line in log:
+                    if line.startswith("Time = "):
+                        steps += 1
+                    elif line.startswith("ExecutionTime = "):
+                        last = float(line.split()[2])
+                    elif (found := re.match(r"particles: (\d+) \(", line)) and not particles:
+                        particles = found[1]
+            seconds += last
+    return [particles, str(steps), f"{seconds:.4g}"]
+
+
+def lines(path):
+    try:
+        with open(path, encoding="utf-8") as file:
+            return file.read().splitlines()
+    except OSError:
+        return []
+
+
+def gather(folder, tutorial, variant, tier):
+    """Rows of summary.csv, with the reasons of the tolerances"""
+    state = os.path.join(folder, ".state", tutorial, variant)
+    case = os.path.join(folder, tutorial, "" if variant == "study" else variant)
+    name = tutorial.split("/")[-1] + "/" + variant
+    paid = ["", "", ""] if variant == "study" else cost(case)
+    rows = []
+    complaint = lines(os.path.join(state, "complaints"))
+    if complaint or not os.path.exists(os.path.join(state, "complaints")):
+        reason = complaint[0] if complaint else "it was not run"
+        rows.append(([name, "the run", "", "nan", "", "", "", "FAIL", tier] + paid, reason))
+    summary = os.path.join(case, "comparison", "summary.csv")
+    if os.path.exists(summary):
+        with open(summary, newline="", encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                kept = [row[k] for k in COLUMNS[1:8]]
+                rows.append(([name] + kept + [row.get("tier") or tier] + paid, row["reason"]))
+    return rows
+
+
+def pictures(folder, tutorial, variant):
+    where = os.path.join(tutorial, "comparison" if variant == "study" else os.path.join(variant, "comparison"))
+    try:
+        names = sorted(os.listdir(os.path.join(folder, where)))
+    except OSError:
+        return []
+    return [os.path.join(where, n) for n in names if n.endswith(".png")]
+
+
+def main(folder, root):
+    plan = [line.split(None, 3)[:3] for line in sys.stdin if line.strip()]
+    order = []
+    for tutorial, variant, tier in plan:
+        order.append((tutorial, variant, tier))
+    for tutorial in dict.fromkeys(t for t, _, _ in plan):
+        if os.path.exists(os.path.join(folder, ".state", tutorial, "study")):
+            order.append((tutorial, "study", lines(os.path.join(folder, ".state", tutorial, "study", "tier"))[0]))
+    order.sort(key=lambda o: o[0])
+    gathered = [(o, gather(folder, *o)) for o in order]
+    rows = [row for _, found in gathered for row, _ in found]
+    failed = sum(row[7] == "FAIL" for row in rows)
+
+    with open(os.path.join(folder, "summary.csv"), "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        writer.writerows(rows)
+
+    text = ["# Validation", "",
+            f"{len(rows)} quantities of {len(plan)} runs, {failed} FAIL. `summary.csv` has them in one table.", ""]
+    tutorial = None
+    for (this, variant, tier), found in gathered:
+        if this != tutorial:
+            tutorial = this
+            title = lines(os.path.join(root, "tutorials", tutorial, "README.md"))
+            text += ["", "## " + (title[0].lstrip("# ") if title else tutorial), ""]
+        text += ["", f"### {variant} ({tier})", "",
+                 "| quantity | reference | ours | unit | error | tolerance | status | reason of the tolerance |",
+                 "|---|---|---|---|---|---|---|---|"]
+        text += ["| " + " | ".join(row[1:8] + [reason]) + " |" for row, reason in found]
+        if found and found[0][0][9]:
+            text += ["", "{} particles, {} steps, {} s of CPU time.".format(*found[0][0][9:])]
+        text += [""] + [f"![{variant}]({picture})" for picture in pictures(folder, tutorial, variant)]
+    with open(os.path.join(folder, "report.md"), "w", encoding="utf-8") as file:
+        file.write("\n".join(text) + "\n")
+
+    for row in rows:
+        print(f"{row[0]:<40} {row[1]:<44} {row[3]:>12} {row[4]:<8} error {row[5]:>10} of {row[6]:>8}  {row[7]}")
+    print(f"{len(rows)} quantities of {len(plan)} runs, {failed} FAIL: {folder}/report.md")
+    return int(failed > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:3]))
