@@ -20,9 +20,11 @@ import sys
 COLUMNS = ["quantity", "reference", "value", "unit", "error", "tolerance", "status", "reason"]
 
 
-def entry(file, key, default=None):
-    """An entry as the programs read it, without quotes; SystemExit with their words if it is not there"""
-    found = subprocess.run(["ispfDictionary", file, "-entry", key, "-value"], capture_output=True, text=True)
+def entry(file, key, default=None, form="-value"):
+    """An entry as the programs read it, without quotes; SystemExit with their words if it is not there.
+    form -SI: a number without its unit"""
+    found = subprocess.run(["ispfDictionary", file, "-entry", key, form], capture_output=True, text=True,
+                           check=False)
     if found.returncode == 0:
         return found.stdout.strip().replace('"', "")
     if default is not None:
@@ -30,17 +32,18 @@ def entry(file, key, default=None):
     sys.exit(found.stderr or found.stdout)
 
 
+def keys(file, key):
+    """Of a dictionary"""
+    return entry(file, key, form="-keywords").split()
+
+
 def numbers(text):
     return [float(word) for word in re.findall(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", text)]
 
 
 def number(file, key, default=None):
-    """A number in SI without a unit"""
-    text = entry(file, key, None if default is None else str(default))
-    try:
-        return float(text)
-    except ValueError:
-        sys.exit(f"{file}: '{key}' is '{text}', not a number without a unit")
+    """In SI"""
+    return float(entry(file, key, None if default is None else str(default), form="-SI"))
 
 
 def vector(file, key):
@@ -51,8 +54,8 @@ def viscosity():
     """nu [m^2/s] and rho [kg/m^3] of constant/physicalProperties"""
     file = "constant/physicalProperties"
     rho = number(file, "rho")
-    nu = entry(file, "nu", "")
-    return (float(nu) if nu else number(file, "mu") / rho), rho
+    nu = number(file, "nu", math.nan)
+    return (number(file, "mu") / rho if math.isnan(nu) else nu), rho
 
 
 def table(path):
