@@ -66,7 +66,7 @@ quoted    = $(foreach l,$(1),-iquote src/$(l))
 archives  = $(foreach l,$(call reverse,$(LIBS)),$(if $(wildcard src/$(l)/*.C),$(B)/lib$(l).a))
 archivesOf= $(foreach l,$(call reverse,$(call ordered,$(1))),$(if $(wildcard src/$(l)/*.C),$(B)/lib$(l).a))
 
-.PHONY: all test fuzz demo bench clean help format
+.PHONY: all test validate validateLong fuzz demo bench clean help format
 all: ## build every library and program
 help: ## this list
 	@grep -hE '^[a-zA-Z]+:.*## ' Makefile | sed -E 's/^([a-zA-Z]+):.*## /  \1\t/' | expand -t 14
@@ -131,6 +131,12 @@ $(B)/%.o: %.C Makefile
 
 test: all testPrograms ## build and run every test (at most 20 minutes; OPT=Sanitize: hours)
 	@ISPF_BIN=$(B)/bin bin/runTests $(B)/testPrograms
+
+validate: all ## every tutorial against its reference (at most 2 hours on 2 cores); CASES="a b" runs a choice of them
+	@bin/ispfValidate -tier validate -jobs $(or $(JOBS),2) $(CASES)
+
+validateLong: all ## the same with the studies of days; what was interrupted goes on
+	@bin/ispfValidate -tier validateLong -jobs $(or $(JOBS),2) $(CASES)
 
 fuzz: ## RUNS (100000) arbitrary inputs for each reader of foreign files, with clang's libFuzzer
 	@bin/installDependencies run fuzz

@@ -84,6 +84,13 @@ def slope(xs, ys):
     return sum((x - mx) * (y - my) for x, y in zip(xs, ys)) / sum((x - mx) ** 2 for x in xs)
 
 
+def writeBlocks(path, blocks):
+    """For gnuplot: each (title, rows of numbers) a block that begins with its title"""
+    with open(path, "w", encoding="utf-8") as out:
+        out.write("\n\n".join(f'"{title}"\n' + "".join(" ".join(map(str, row)) + "\n" for row in rows)
+                              for title, rows in blocks))
+
+
 class Report:
     """Quantities beside their references, as a table on the terminal and in comparison/summary.csv.  A run that
     ispfRunTutorials has shortened is not judged"""
