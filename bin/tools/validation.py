@@ -59,10 +59,19 @@ def viscosity():
 
 
 def table(path):
-    """Rows of numbers of a function object's table: columns as titled; vectors are three of them"""
+    """Rows of numbers of a table of a function object: columns as titled; vectors are three of them"""
     with open(path, encoding="utf-8") as lines:
         return [[float(w) for w in re.sub(r"[(),]", " ", line).split()] for line in lines
                 if line.strip() and not line.startswith("#")]
+
+
+def history(name, file):
+    """All rows over time that a function object has written, a continued run's parts put together"""
+    rows = []
+    for start in instants(f"postProcessing/{name}"):
+        part = table(f"postProcessing/{name}/{start}/{file}")
+        rows = [row for row in rows if not part or row[0] < part[0][0]] + part
+    return rows
 
 
 def instants(folder):

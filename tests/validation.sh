@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The quick tier: tutorials against their references; and that what is wrong is told as FAIL
+set -uo pipefail
+. "$(dirname "$0")/cases/functions"
+validate=$cases/../../bin/ispfValidate
+export ISPF_BIN=${ISPF_BIN:-$ispfRoot/build/${OPT:-Release}/bin}
+
+"$validate" -tier quick -folder "$scratch/quick" || fail "quick tier"
+[ "$(head -n 1 "$scratch/quick/summary.csv")" = \
+    "case,quantity,reference,value,unit,error,tolerance,status,tier,particles,steps,cpuSeconds" ] || fail "summary's header"
+for tutorial in $("$validate" -tier quick -list | cut -d ' ' -f 1 | sort -u); do
+    grep -q "^$(basename "$tutorial")/.*,pass,quick," "$scratch/quick/summary.csv" || fail "$tutorial is judged nowhere"
+done
+
+# a tree with one tutorial, broken in each way
+broken() { # status pattern-of-what-is-said command that changes the tutorial [options]
+    rm -rf "$scratch/tree"; mkdir -p "$scratch/tree/tutorials/ispfFsiFoam"
+    cp -r "$ispfRoot/bin" "$ispfRoot/etc" "$scratch/tree/"
+    cp -r "$ispfRoot/tutorials/ispfFsiFoam/hydrostaticBox" "$scratch/tree/tutorials/ispfFsiFoam/"
+    cd "$scratch/tree/tutorials/ispfFsiFoam/hydrostaticBox" && ./Allclean > /dev/null 2>&1 || exit 1
+    echo "rest quick system/controlDict endTime 0.05; system/controlDict writeInterval 0.05" > validation/variants
+    eval "$3"
+    "$scratch/tree/bin/ispfValidate" -tier quick "${@:4}" > "$scratch/out" 2>&1
+    [ $? = "$1" ] || fail "status is not $1: $3: $(cat "$scratch/out")"
+    grep -qE -- "$2" "$scratch/out" || fail "'$2' is not said: $(cat "$scratch/out")"
+}
+broken 0 "2 quantities of 1 runs, 0 FAIL" ""
+broken 1 "largest speed.*FAIL" "sed -i 's/1e-6 if/0 if/' validation/compare"
+broken 1 "largest error of p.*FAIL" "sed -i 's/rho \* dot(row/1.01 * &/' validation/compare"
+broken 1 "largest speed.*nan .*FAIL" "sed -i 's|last\[5\] /|math.nan /|' validation/compare"
+broken 1 "the run .*FAIL" "sed -i 's/^runComparison/true/' Allrun"
+broken 1 "rest: FAIL, Allrun failed" "setEntry system/sphSolution coupling none"
+broken 1 "rest: FAIL, Allrun failed" "sed -i 's/^report = /1 + &/' validation/compare"
+broken 1 "reached 0.02 of 0.05 s" "sed -i 's/^runApplication ispf.*/&; sed -i s,0.05,0.02,g log.ispfFsiFoam/' Allrun"
+broken 1 "no picture was made" "sed -i '/^out/s/.*/&; exit/' validation/plot.gp"
+broken 1 "rest: FAIL, Allrun failed" "echo 'rest quick system/controlDict endTimes 0.05' > validation/variants"
+broken 1 "rest: FAIL, .*system/sphDict" "echo 'rest quick system/sphDict coupling monolithic' > validation/variants"
+broken 1 "no tier 'fast'|of tier 'fast'; valid: quick validate validateLong" "echo 'rest fast' > validation/variants"
+broken 1 "there is no tutorial 'nothing'" "" nothing
+broken 1 "unknown option '-tiers'; valid" "" -tiers
+broken 1 "study .*FAIL" "printf '#!/bin/sh\nexit 1\n' > validation/study; chmod +x validation/study"
+
+# what has ended is not run again; what was interrupted goes on, and the steps of both parts are counted
+broken 0 "0 FAIL" "echo 'rest quick system/controlDict endTime 2; system/controlDict writeInterval 1' > validation/variants"
+validate=$scratch/tree/bin/ispfValidate results=$scratch/tree/validation
+"$validate" -tier quick > "$scratch/out" 2>&1
+grep -q "has ended before" "$scratch/out" || fail "run again: $(cat "$scratch/out")"
+cp "$results/summary.csv" "$scratch/once.csv"; rm -r "$results"
+setsid "$validate" -tier quick > /dev/null 2>&1 & run=$!
+log=$results/ispfFsiFoam/hydrostaticBox/rest/log.ispfFsiFoam
+until grep -qs '^Time = 0.5' "$log" || ! kill -0 $run 2> /dev/null; do sleep 0.02; done
+kill -TERM -- -$run; wait $run 2> /dev/null && fail "an interrupted validation ends with 0"
+until tail -n 4 "$log" | grep -q "SIGTERM"; do sleep 0.1; done
+"$validate" -tier quick > "$scratch/out" 2>&1 || fail "goes on: $(cat "$scratch/out")"
+grep -q "rest: goes on" "$scratch/out" || fail "begins anew: $(cat "$scratch/out")"
+diff <(cut -d, -f 1-11 "$scratch/once.csv") <(cut -d, -f 1-11 "$results/summary.csv") || fail "interrupted, the summary differs"
+[ $failures = 0 ]
