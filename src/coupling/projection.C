@@ -6,6 +6,7 @@
 //     {
 //         viscosity      implicit;     // or explicit
 //         positionUpdate symplectic;   // or mean, x += dt (u^n + u^{n+1})/2 as in the paper
+//         reflection     0;            // towards 1: less damping by the step, projectionStep.H
 //         limits { CFL 0.4; force 0.25; viscous 0.125; }
 //     }
 //     shifting { ... }     densityFeedback 1;     solvers { p { ... } U { ... } }

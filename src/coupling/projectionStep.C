@@ -34,7 +34,11 @@ List<vector> points(const particleCloud& cloud)
 
 projectionStep::projectionStep(scalar rho, scalar mu, const word& viscosity,
                                const operatorSchemes& schemes, const dictionary& solution)
-    : rho_(rho), nu_(mu / rho), schemes_(schemes)
+    : rho_(rho),
+      nu_(mu / rho),
+      reflection_(
+          solution.subOrEmptyDict("projection").getInRangeOrDefault("reflection", 0, 0.9, 0)),
+      schemes_(schemes)
 {
     const dictionary solvers = solution.subOrEmptyDict("solvers");
     const dictionary p = solvers.subOrEmptyDict("p");
@@ -105,7 +109,8 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
     List<scalar> f = sphc::div(s, cloud.Up, schemes_.divergence);
     for (label i = 0; i < label(given.size()); ++i)
         if (cloud.uFixed[i]) cloud.Up[i].setXyz(given[i].xyz());
-    for (label i = 0; i < n; ++i) f[i] = -rho_ / dt * (f[i] - (q.empty() ? 0 : q[i]));
+    const scalar scale = -(1 + reflection_) * rho_ / dt;
+    for (label i = 0; i < n; ++i) f[i] = scale * (f[i] - (q.empty() ? 0 : q[i]));
     if (!given.empty()) endGivenGradient(s, f);
 
     sphm::laplacian(s, equation_);

@@ -101,6 +101,25 @@ TEST_CASE("the error of Taylor-Green is of first order in time")
     CHECK(error[1] < 0.6 * error[0]);
 }
 
+TEST_CASE("a reflection leaves the step's damping away: dt/2 |grad p|^2/rho of a projection")
+{
+    // of the kinetic energy, e^2/4: the mean of |grad p|^2 is pi^2 e^4
+    const scalar endTime = 0.3, rate = 2 * k * k / Re, Co = 0.1, dt = Co / 32;
+    const scalar damping = 2 * dt * M_PI * M_PI * (1 - std::exp(-2 * rate * endTime)) / (2 * rate);
+    scalar energy[2];
+    for (const int reflects : {0, 1})
+    {
+        periodicBox box(2, 32, 0, "WendlandC2", 1.3);
+        vortexRun vortex;
+        vortex.Co = Co;
+        if (reflects) vortex.solution = "projection { reflection 0.5; }";
+        const auto e = vortex.run(box, endTime);
+        CHECK(e.U < (reflects ? 0.01 : 0.015));
+        energy[reflects] = e.energy;
+    }
+    CHECK(energy[1] - energy[0] == doctest::Approx(0.5 * damping).epsilon(0.15));
+}
+
 TEST_CASE("Taylor-Green fails without shifting")
 {
     periodicBox box(2, 32, 0, "WendlandC2", 1.3);
