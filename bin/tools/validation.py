@@ -93,6 +93,36 @@ def slope(xs, ys):
     return sum((x - mx) * (y - my) for x, y in zip(xs, ys)) / sum((x - mx) ** 2 for x in xs)
 
 
+class sine:
+    """A Function1 of type sine, all of whose entries are numbers; SystemExit if it is of another type"""
+
+    def __init__(self, file, key):
+        if entry(file, f"{key}.type") != "sine":
+            sys.exit(f"{key} of {file} is of type '{entry(file, f'{key}.type')}': the reference is known for a sine")
+        self.omega = 2 * math.pi * number(file, f"{key}.frequency")
+        self.amplitude = number(file, f"{key}.amplitude") * number(file, f"{key}.scale", 1)
+        self.level, self.t0 = number(file, f"{key}.level", 0), number(file, f"{key}.t0", 0)
+
+    def value(self, t):
+        return self.level + self.amplitude * math.sin(self.omega * (t - self.t0))
+
+
+def harmonic(times, values, omega):
+    """Amplitude and phase [rad] of the A sin(omega t + phase) + B that fits best"""
+    normal, right = [[0.0] * 3 for _ in range(3)], [0.0] * 3
+    for t, value in zip(times, values):
+        basis = (math.sin(omega * t), math.cos(omega * t), 1.0)
+        for i in range(3):
+            right[i] += basis[i] * value
+            for j in range(3):
+                normal[i][j] += basis[i] * basis[j]
+    det = lambda m: (m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
+                     + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]))
+    # Cramer's rule; the matrix is symmetric
+    a, b = (det([right if i == k else normal[i] for i in range(3)]) / det(normal) for k in range(2))
+    return math.hypot(a, b), math.atan2(b, a)
+
+
 def writeBlocks(path, blocks):
     """For gnuplot: each (title, rows of numbers) a block that begins with its title"""
     with open(path, "w", encoding="utf-8") as out:
