@@ -132,11 +132,14 @@ def writeBlocks(path, blocks):
 
 class Report:
     """Quantities beside their references, as a table on the terminal and in comparison/summary.csv.  A run that
-    ispfRunTutorials has shortened is not judged"""
+    ispfRunTutorials has shortened is not judged; neither is one that is there for its cost (bin/tools/trade.py): its file
+    validation/purpose has `judged no;`"""
 
     def __init__(self, folder="comparison"):
         self.rows, self.folder = [], folder
-        self.judges = not os.environ.get("ISPF_STEPS")
+        self.without = "shortened" if os.environ.get("ISPF_STEPS") else ""
+        if os.path.exists("validation/purpose") and entry("validation/purpose", "judged") == "no":
+            self.without = self.without or "told"
 
     def check(self, quantity, reference, value, tolerance, reason, unit="", scale=None):
         """error: (value - reference)/scale, |reference| by default; it must not be larger than the tolerance, which
@@ -161,8 +164,7 @@ class Report:
         self._add(quantity, reference, value, unit, math.nan, math.nan, "told", reason)
 
     def _add(self, quantity, reference, value, unit, error, tolerance, status, reason):
-        if not self.judges:
-            status = "shortened"
+        status = self.without or status
         self.rows.append([quantity, reference, value, unit, error, tolerance, status, reason])
 
     def write(self):
