@@ -20,7 +20,7 @@ awk -F, '/^[0-9]/ { if ($2 > most) most = $2 } END { v = most*atan2(0, -1)*64; e
     constant/plunger/literal.csv || fail "literal: 2.41 ml"
 
 # A wrong word is refused with the valid ones
-for options in "-dx 0.6" "-variant C" "-kernel gauss" "-hByDx -1" "-curve sine" "-cycles 0" "-E -3" "-foo"; do
+for options in "-dx 0.6" "-variant C" "-bore 9" "-variant A -bore 10" "-kernel gauss" "-hByDx -1" "-curve sine" "-cycles 0" "-E -3" "-foo"; do
     # shellcheck disable=SC2086
     ./Allrun $options -prepare > "$scratch/out" 2>&1 && fail "Allrun $options is accepted"
     grep -q "valid\|is not a" "$scratch/out" || fail "Allrun $options: no reason"

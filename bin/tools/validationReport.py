@@ -2,6 +2,7 @@
 """Usage: validationReport.py folder root < plan.  Gathers what ispfValidate has run in `folder`, one line of the plan
 "tutorial variant tier changes" each, into summary.csv and report.md.  Status 1 if anything is FAIL."""
 import csv
+import glob
 import os
 import re
 import sys
@@ -49,8 +50,7 @@ def gather(folder, tutorial, variant, tier):
     if complaint or not os.path.exists(os.path.join(state, "complaints")):
         reason = complaint[0] if complaint else "it was not run"
         rows.append(([name, "the run", "", "nan", "", "", "", "FAIL", tier] + paid, reason))
-    summary = os.path.join(case, "comparison", "summary.csv")
-    if os.path.exists(summary):
+    for summary in compared(case, variant, "summary.csv"):
         with open(summary, newline="", encoding="utf-8") as file:
             for row in csv.DictReader(file):
                 kept = [row[k] for k in COLUMNS[1:8]]
@@ -58,13 +58,38 @@ def gather(folder, tutorial, variant, tier):
     return rows
 
 
+def compared(case, variant, ending):
+    """Files of the comparison, also of an Allrun that makes folders of its own; a study's are above those of the runs"""
+    return sorted(glob.glob(os.path.join(case, "comparison" if variant == "study" else "**/comparison", "*" + ending),
+                            recursive=True))
+
+
+def expectations(gathered):
+    """What to expect: for each tutorial, particles and CPU time of its variants beside every error that several of
+    them have, the cheapest first"""
+    text = ["", "# What to expect", "",
+            "Errors as in the tables above, by what they cost. One thread's CPU time, of this machine."]
+    families = {}
+    for (tutorial, variant, _), found in gathered:
+        if variant != "study" and found:
+            families.setdefault(tutorial, []).append((variant, [row for row, _ in found]))
+    for tutorial, variants in families.items():
+        variants.sort(key=lambda v: float(v[1][0][11] or 0))
+        judged = [row[1] for _, rows in variants for row in rows if row[5] not in ("", "nan")]
+        shown = [q for q in dict.fromkeys(judged) if judged.count(q) > 1 or len(variants) == 1]
+        if not shown:
+            continue
+        text += ["", f"**{tutorial.split('/')[-1]}**", "",
+                 "| variant | particles | steps | CPU [s] | " + " | ".join(shown) + " |", "|---" * (4 + len(shown)) + "|"]
+        for variant, rows in variants:
+            errors = {row[1]: row[5] + ("" if row[7] == "pass" else " " + row[7]) for row in rows}
+            text.append(f"| {variant} | " + " | ".join(rows[0][9:12] + [errors.get(q, "") for q in shown]) + " |")
+    return text
+
+
 def pictures(folder, tutorial, variant):
-    where = os.path.join(tutorial, "comparison" if variant == "study" else os.path.join(variant, "comparison"))
-    try:
-        names = sorted(os.listdir(os.path.join(folder, where)))
-    except OSError:
-        return []
-    return [os.path.join(where, n) for n in names if n.endswith(".png")]
+    case = os.path.join(folder, tutorial, "" if variant == "study" else variant)
+    return [os.path.relpath(path, folder) for path in compared(case, variant, ".png")]
 
 
 def main(folder, root):
@@ -100,6 +125,7 @@ def main(folder, root):
         if found and found[0][0][9]:
             text += ["", "{} particles, {} steps, {} s of CPU time.".format(*found[0][0][9:])]
         text += [""] + [f"![{variant}]({picture})" for picture in pictures(folder, tutorial, variant)]
+    text += expectations(gathered)
     with open(os.path.join(folder, "report.md"), "w", encoding="utf-8") as file:
         file.write("\n".join(text) + "\n")
 

@@ -82,6 +82,17 @@ dimensions variant(const std::string& name)
     return d;
 }
 
+// The nozzle with another bore, as thick: nothing says how wide it is
+void changeBore(dimensions& d, double diameter)
+{
+    const double thickness = d.nozzleOuter - d.nozzleBore;
+    d.nozzleBore = diameter / 2;
+    d.nozzleOuter = d.nozzleBore + thickness;
+    if (d.nozzleBore <= 0 || d.nozzleBore > d.syringeRadius ||
+        (d.nozzleTip > 0 && d.nozzleOuter >= d.innerRadius))
+        throw std::runtime_error("a bore of " + std::to_string(diameter) + " mm does not fit");
+}
+
 // A closed outline in the half-plane of radius and height, edge by edge
 class outline
 {
@@ -186,10 +197,10 @@ outline::solid chamber(const dimensions& d)
 {
     const double r = d.innerRadius, L = d.length, plunger = -d.nozzleDepth - d.syringeLength;
     outline o(0, plunger);
-    o.line(d.syringeRadius, plunger, "plunger")
-        .line(d.syringeRadius, -d.nozzleDepth)
-        .line(d.nozzleBore, -d.nozzleDepth)
-        .line(d.nozzleBore, d.nozzleTip);
+    o.line(d.syringeRadius, plunger, "plunger");
+    if (d.nozzleBore != d.syringeRadius)
+        o.line(d.syringeRadius, -d.nozzleDepth).line(d.nozzleBore, -d.nozzleDepth);
+    o.line(d.nozzleBore, d.nozzleTip);
     if (d.nozzleTip > 0) o.line(d.nozzleOuter, d.nozzleTip).line(d.nozzleOuter, 0);
     return o.line(r, 0)
         .line(r, L)
@@ -266,8 +277,10 @@ void scrub(const Handle(IGESData_IGESModel) & model, const std::string& name)
 int main(int argc, char** argv)
 try
 {
-    if (argc != 4) throw std::runtime_error("usage: writeIges A|B arc|ellipse file.igs");
-    const dimensions d = variant(argv[1]);
+    if (argc != 4 && argc != 5)
+        throw std::runtime_error("usage: writeIges A|B arc|ellipse file.igs [bore]");
+    dimensions d = variant(argv[1]);
+    if (argc == 5) changeBore(d, std::stod(argv[4]));
     const dome outer = outerDome(d, argv[2]);
     std::cout.precision(10);
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the paper reports and whether this run shows it; and what the run must keep to be trusted.
 # Everything said of a dead centre is judged at one instant of its rest, deadCentreInstant.
-# Input: summary.csv
+# Input: quantities.csv
 BEGIN { FS = ","; nParts = split("+0.00 +0.20 +0.57 +1.15", part, " ") }
 { q[$1] = $2 }
 function has(names,    k, n, name) {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The table "published | ours | difference", and the volume ledger.
-# Input: summary.csv (quantity,value) and published.csv
+# Input: quantities.csv (quantity,value) and published.csv
 BEGIN {
     FS = ","
     form = "%-34s %10s  %-7s %12s  %s\n"
