@@ -23,8 +23,8 @@ COLUMNS = ["quantity", "reference", "value", "unit", "error", "tolerance", "stat
 def entry(file, key, default=None, form="-value"):
     """An entry as the programs read it, without quotes; SystemExit with their words if it is not there.
     form -SI: a number without its unit"""
-    found = subprocess.run(["ispfDictionary", file, "-entry", key, form], capture_output=True, text=True,
-                           check=False)
+    found = subprocess.run(["ispfDictionary", file] + (["-entry", key] if key else []) + [form], capture_output=True,
+                           text=True, check=False)
     if found.returncode == 0:
         return found.stdout.strip().replace('"', "")
     if default is not None:
@@ -32,8 +32,8 @@ def entry(file, key, default=None, form="-value"):
     sys.exit(found.stderr or found.stdout)
 
 
-def keys(file, key):
-    """Of a dictionary"""
+def keys(file, key=None):
+    """Of a dictionary, or of the file"""
     return entry(file, key, form="-keywords").split()
 
 
@@ -94,11 +94,19 @@ def slope(xs, ys):
 
 
 class sine:
-    """A Function1 of type sine, all of whose entries are numbers; SystemExit if it is of another type"""
+    """A Function1 of type sine, all of whose entries are numbers, or a constant, whose amplitude is 0; SystemExit if it is
+    of another type"""
 
     def __init__(self, file, key):
-        if entry(file, f"{key}.type") != "sine":
-            sys.exit(f"{key} of {file} is of type '{entry(file, f'{key}.type')}': the reference is known for a sine")
+        kind = entry(file, f"{key}.type", "constant")
+        self.omega = self.amplitude = self.t0 = 0.0
+        if kind == "constant":
+            self.level = number(file, f"{key}.value", math.nan)
+            if math.isnan(self.level):  # short: p 0
+                self.level = number(file, key)
+            return
+        if kind != "sine":
+            sys.exit(f"{key} of {file} is of type '{kind}': the reference is known for sine")
         self.omega = 2 * math.pi * number(file, f"{key}.frequency")
         self.amplitude = number(file, f"{key}.amplitude") * number(file, f"{key}.scale", 1)
         self.level, self.t0 = number(file, f"{key}.level", 0), number(file, f"{key}.t0", 0)
@@ -108,7 +116,9 @@ class sine:
 
 
 def harmonic(times, values, omega):
-    """Amplitude and phase [rad] of the A sin(omega t + phase) + B that fits best"""
+    """Amplitude and phase [rad] of the A sin(omega t + phase) + B that fits best; nan of less than three values"""
+    if len(times) < 3:
+        return math.nan, math.nan
     normal, right = [[0.0] * 3 for _ in range(3)], [0.0] * 3
     for t, value in zip(times, values):
         basis = (math.sin(omega * t), math.cos(omega * t), 1.0)

@@ -9,8 +9,9 @@ set xrange [0:5.5]
 set ylabel 'u/U in the last period'
 instants = 'comparison/instants.dat'
 stats instants using 1 nooutput
-plot for [i=1:STATS_blocks] instants index i-1 using 1:2 with points linestyle i pointtype 7 pointsize 0.7 notitle, \
-     for [i=1:STATS_blocks] '' index i-1 using 1:3 with lines linestyle 9 notitle
+half = STATS_blocks/2
+plot for [i=1:half] instants index half+i-1 using 1:2 with lines linestyle 9 notitle, \
+     for [i=1:half] instants index i-1 using 1:2 with points pointtype 7 pointsize 0.7 linecolor i notitle
 set ylabel 'amplitude/U'
 plot 'comparison/profile.dat' index 0 using 1:2 with points pointtype 6 linecolor black title 'particles', exp(-x) with lines linestyle 1 title 'Stokes'
 set ylabel 'phase [rad]'
