@@ -2,6 +2,7 @@
 #include "densityFeedback.H"
 
 #include <cmath>
+#include <limits>
 
 namespace ispf
 {
@@ -9,7 +10,8 @@ namespace ispf
 namespace
 {
 
-constexpr label fewest = 100;  // particles whose mean tells anything
+constexpr label fewest = 100;   // particles whose mean tells anything
+constexpr scalar longest = 30;  // [dx] of a zone that has the whole rate
 
 scalar sqr(scalar a)
 {
@@ -85,6 +87,16 @@ struct density
     }
 };
 
+// Largest side of the box around those particles of which isOf(i) is true
+template <class IsOf>
+scalar extent(const particleCloud& cloud, IsOf&& isOf)
+{
+    vector low = vector::Constant(std::numeric_limits<scalar>::max()), high = -low;
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (isOf(i)) low = low.cwiseMin(cloud.x[i].xyz()), high = high.cwiseMax(cloud.x[i].xyz());
+    return (high - low).maxCoeff();
+}
+
 }  // namespace
 
 densityFeedback::densityFeedback(const dictionary& solution, const smoothingKernel& kernel,
@@ -104,19 +116,22 @@ void densityFeedback::addTo(List<scalar>& q, const neighbourList& list, const Li
                             const std::function<bool(label)>& isCut)
 {
     added_ = 0;
-    const scalar rate = constant_ * cloud_.maxSpeed() / cloud_.dx;
+    const scalar speed = constant_ * cloud_.maxSpeed();
     const auto isOf = [&](label i, label z) {
         return drained[i] && cloud_.zone[i] == z && q[i] == 0;
     };
     for (label z = 0; z < label(cloud_.zones.size()); ++z)
     {
-        if (cloud_.zones[z].phase != phaseType::fluid || (rate == 0 && start_[z] > 0)) continue;
-        const density s(cloud_, list, kernel_,
-                        [&](label i) { return isOf(i, z) && !cloud_.beyondOpen(i) && !isCut(i); });
+        if (cloud_.zones[z].phase != phaseType::fluid || (speed == 0 && start_[z] > 0)) continue;
+        const auto counts = [&](label i) {
+            return isOf(i, z) && !cloud_.beyondOpen(i) && !isCut(i);
+        };
+        const density s(cloud_, list, kernel_, counts);
         if (s.n < fewest) continue;
         const scalar d = (s.mean - k_ * s.variance) / latticeSum_;
         if (start_[z] == 0) start_[z] = d;
-        const scalar source = rate * (d - 0.5 * (1 + start_[z]));
+        const scalar length = std::max(cloud_.dx, extent(cloud_, counts) / longest);
+        const scalar source = speed / length * (d - 0.5 * (1 + start_[z]));
         for (label i = cloud_.nSolid(); i < cloud_.n(); ++i)
             if (isOf(i, z) && !cloud_.beyondOpen(i))
                 q[i] = source, added_ += source * cloud_.volume();

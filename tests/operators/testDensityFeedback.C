@@ -75,6 +75,21 @@ TEST_CASE(
     CHECK(atRest[5] == 0);
 }
 
+TEST_CASE("density feedback: what it moves a long zone by is not more than a short one")
+{
+    scalar pushed[2];
+    for (const int n : {30, 90})
+    {
+        periodicBox box(2, n, 0.05, "WendlandC2", 1.3);
+        List<char> gone(box.cloud.n(), 0);
+        for (label i = 0; i < box.cloud.n(); i += 19) gone[i] = 1;
+        box.cloud.remove(gone);
+        box.update();
+        pushed[n > 30] = sourceOf(box)[5] * n;
+    }
+    CHECK(pushed[1] == relative(pushed[0], 0.05));
+}
+
 TEST_CASE("density feedback: sums that a face cuts off tell nothing, but what they lack they get")
 {
     periodicBox box(2, 30, 0.05, "WendlandC2", 1.3);
