@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Flows that keep their shape as they decay, exp(-rate t), in a box that repeats itself: what validation/compare of such a
+tutorial has in common.  The case has the function objects `balance` (energy), `error` (errorNorm of U and p) and `middle`
+(lineProfile of U)"""
+import math
+import sys
+from validation import Report, entry, history, instants, number, slope, table, vector, writeBlocks
+
+ASKED = "asked for: decay rate 1 % at Re 100 with 50 particles across, U 2 %, p 5 %"
+
+
+def wants(box):
+    """SystemExit unless the fluid's box has these corners, in as many directions as are given"""
+    low, high = (vector("system/particleDict", f"zones.fluid.{end}") for end in ("min", "max"))
+    if (low[:len(box[0])], high[:len(box[1])]) != box:
+        sys.exit(f"the formulas of system/particleDict and controlDict repeat themselves in the box from {box[0]} to {box[1]}: "
+                 "zones.fluid must have these corners")
+
+
+def shifted():
+    file = "system/sphSolution"
+    return entry(file, "shifting.type", "Xu") != "none" and number(file, "shifting.constant", 0.1) > 0
+
+
+def judge(rate, Re, profile):
+    """rate [1/s] of the velocity; profile: index of the component of U that is drawn, and its shape over x at time 0.
+    Writes comparison/{decay,errors,profiles}.dat and the report; its status"""
+    energies = [(row[0], row[1]) for row in history("balance", "energy.dat")]
+    found = -slope([t for t, _ in energies], [0.5 * math.log(e) for _, e in energies])
+    errors = history("error", "errorNorm.dat")  # Time, L2 max exact of U, the same of p
+    if errors[0][1] > 1e-6 * errors[0][3]:
+        sys.exit(f"at {errors[0][0]} s U is not the exact solution that functions.error of system/controlDict has")
+    errors = [(row[0], row[1] / row[3], row[4] / row[6]) for row in errors[1:]]
+    U, p = max(row[1] for row in errors), max(row[2] for row in errors)
+
+    component, shape = profile
+    writeBlocks("comparison/decay.dat", [("speed", [(t, math.sqrt(e / energies[0][1]), math.exp(-rate * t)) for t, e in energies])])
+    writeBlocks("comparison/errors.dat", [("errors", errors)])
+    writeBlocks("comparison/profiles.dat",
+                [(f"{t} s", [(row[1], row[4 + component], shape(row[1]) * math.exp(-rate * float(t)))
+                             for row in table(f"postProcessing/middle/{t}/line.dat")]) for t in instants("postProcessing/middle")])
+
+    report = Report()
+    if shifted():
+        report.check("decay rate of the speed", rate, found, 0.01 if Re < 101 else 0.03,
+                     ASKED if Re < 101 else "above Re 100 what the scheme itself damps shows: 3 % of the decay", unit="1/s")
+        report.below("L2 error of U over L2 of U, largest", U, 0.02, ASKED)
+        report.below("L2 error of p over L2 of p, largest", p, 0.05, ASKED)
+    else:
+        report.atLeast("L2 error of U over L2 of U, largest", U, 0.1, "without shifting it has to fail visibly")
+        report.atLeast("L2 error of p over L2 of p, largest", p, 0.25, "without shifting it has to fail visibly")
+    report.note("L2 error of U over L2 of U, last", errors[-1][1], "for the orders of convergence")
+    report.note("L2 error of p over L2 of p, mean", sum(row[2] for row in errors) / len(errors), "over the written times")
+    return report.write()
