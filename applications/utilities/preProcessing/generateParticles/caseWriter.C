@@ -3,6 +3,7 @@
 
 #include "heldSignals.H"
 #include "particleTable.H"
+#include "restState.H"
 #include "stlWriter.H"
 #include <filesystem>
 #include <numeric>
@@ -43,7 +44,8 @@ List<word> patchNames(const zoneGeometry& geometry)
     return names;
 }
 
-List<namedText> surfaceTexts(const word& caseFolder, const zoneGeometry& geometry)
+List<namedText> surfaceTexts(const word& caseFolder, const zoneGeometry& geometry,
+                             const List<initialFields>& initial)
 {
     List<namedText> files;
     const word folder = caseFolder + "/constant/triSurface/";
@@ -65,7 +67,7 @@ List<namedText> surfaceTexts(const word& caseFolder, const zoneGeometry& geometr
                 std::find(s.patchNames.begin(), s.patchNames.end(), side) != s.patchNames.end();
             if (solid.phase != phaseType::solid || fluid.phase != phaseType::fluid || !touch)
                 continue;
-            triSurface part = forDisk(s.patchSurface(side), geometry);
+            triSurface part = atRest(forDisk(s.patchSurface(side), geometry), initial[a], geometry);
             const word name = solid.name + "_to_" + fluid.name;
             part.patchNames = {name};
             files.push_back(stlText(part, folder + name + ".stl"));
@@ -86,6 +88,7 @@ void writeCase(const word& caseFolder, const zoneGeometry& geometry, const place
         particles.vectors["U"].push_back(fields.U(placed.x[i]));
         particles.scalars["p"].push_back(fields.p(placed.x[i]));
     }
+    if (restsElsewhere(initial)) particles.vectors["x0"] = restPositions(geometry, placed, initial);
     particles.integers["zone"].assign(placed.zone.begin(), placed.zone.end());
     auto& id = particles.integers["id"];
     id.resize(placed.x.size());
@@ -111,7 +114,7 @@ void writeCase(const word& caseFolder, const zoneGeometry& geometry, const place
     sites.setAttribute("stripLayers", stripLayers);
 
     const heldSignals untilDone;
-    List<namedText> files = surfaceTexts(caseFolder, geometry);
+    List<namedText> files = surfaceTexts(caseFolder, geometry, initial);
     for (const auto& [table, file] :
          {std::pair(&walls, "/constant/wallParticles.hdf"),
           std::pair(&sites, "/constant/openSites.hdf"), std::pair(&particles, "/0/particles.hdf")})

@@ -82,6 +82,8 @@ void particleDict::readBoundary()
     {
         const dictionary& patch = boundary.subDict(name);
         checkName(boundary, name);
+        if (patch.found("clamps"))
+            for (const word& zone : patch.get<List<word>>("clamps")) clamped_.insert(zone);
         const word type = patch.choose("type", {"wall", "open", "symmetryPlane", "cyclic"});
         patchInfo info{name, patchInfo::kind::other, patch.found("motion")};
         if (type == "wall") info.type = patchInfo::kind::wall;
@@ -324,7 +326,11 @@ void particleDict::addZone(const word& name, List<body>& bodies)
     }
     if (rigid) return;
     zones_.push_back(zone);
-    initial_.emplace_back(dict, dx, nDims);
+    initial_.emplace_back(dict, dx, nDims, zone.phase == phaseType::solid);
+    if (initial_.back().restsElsewhere() && clamped_.count(name))
+        dict.fail("rest", "A wall of constant/boundary clamps zone " + name +
+                              ": what it clamps must rest where it is placed. Make the part that "
+                              "is held a zone of phase clamped, with the same formulas");
 }
 
 bool particleDict::mustFit(const List<body>& bodies) const

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+out = 'comparison/inflatedVessel.png'
+width = 1100; height = 480
+load common
+set multiplot layout 1,2
+set xlabel 'growth of the lumen [%]'; set ylabel 'pressure [kPa]'
+set key left top
+plot 'comparison/pressure.dat' using (100*$1):(1e-3*$2) with points linestyle 1 pointtype 7 pointsize 0.5 title 'particles', \
+     '' using (100*$1):(1e-3*$3) with lines linestyle 9 title "springs' law", \
+     '' using (100*$1):(1e-3*$4) with lines linestyle 3 dashtype 2 title 'neo-Hooke'
+set xlabel 'radius at rest / A'; set ylabel 'radius / A'
+plot 'comparison/wall.dat' using 1:2 with points linestyle 1 pointtype 7 pointsize 0.4 title 'wall particles', \
+     '' using 1:3 with points linestyle 9 pointtype 7 pointsize 0.2 title 'incompressible'
+unset multiplot
