@@ -16,6 +16,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 
 COLUMNS = ["quantity", "reference", "value", "unit", "error", "tolerance", "status", "reason"]
 
@@ -47,7 +48,15 @@ def number(file, key, default=None):
 
 
 def vector(file, key):
-    return numbers(entry(file, key))
+    """The numbers of a vector, or of a list of vectors, in SI"""
+    text, _, unit = entry(file, key).rpartition(")")
+    factor = 1.0
+    if unit.strip():
+        with tempfile.NamedTemporaryFile("w", suffix=".dictionary") as one:
+            one.write(f"one 1 {unit};\n")
+            one.flush()
+            factor = number(one.name, "one")
+    return [factor * value for value in numbers(text)]
 
 
 def viscosity():
