@@ -70,7 +70,9 @@ class Trade:
         return next(((name, seconds) for seconds, error, name in self.front() if error <= limit), (None, math.nan))
 
     def write(self, path="comparison/trade"):
-        """path.csv with all runs, path.dat and path.png"""
+        """path.csv with all runs, path.dat and path.png; nothing if no variant of a family was to be run"""
+        if not self.families:
+            return
         os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
         best = [name for _, _, name in self.front()]
         rows, blocks, named = [], [], set()
