@@ -128,8 +128,9 @@ void enclosedFluid::expectNext(const body& b, const List<tensor>& cofactor, stat
     scalar defect = b.source - (gives - b.pushed);
     // when all is at rest again what still flows inside may miss more than what then passes
     s.largest = std::max(s.largest, std::abs(gives) + b.gross + std::abs(b.source - b.added));
-    const scalar most = std::max(largestShare * s.largest,
-                                 stirredShare * c_.cloud.maxSpeed() * surface_->area(b.isZone));
+    const scalar speed = std::max(c_.cloud.maxSpeed(), c_.walls->maxGivenSpeed());
+    const scalar most =
+        std::max(largestShare * s.largest, stirredShare * speed * surface_->area(b.isZone));
     if (std::abs(defect) > most)
     {
         warning("time " + c_.time.timeName() + " s: zone " + c_.cloud.zones[b.zones.front()].name +
