@@ -7,4 +7,4 @@ set key bottom right
 set xlabel 't [s]'; set ylabel 'flow [mm³/s]'
 set yrange [0:*]
 plot for [i=1:flux_blocks] 'comparison/flux.dat' index i-1 using 1:(1e9*$2) with lines linestyle i title columnheader(1), \
-     for [i=1:law_blocks] 'comparison/law.dat' index i-1 using 1:(1e9*$2) with lines linestyle 9 title 'law, '.columnheader(1)
+     for [i=1:law_blocks] 'comparison/law.dat' index i-1 using 1:(1e9*$2) with lines linestyle 9 title (i == 1 ? 'law' : '')
