@@ -1,8 +1,8 @@
 // A tube that branches; lengths are those of the axes from the point where they meet, its ends are open [mm]
 SetFactory("OpenCASCADE");
 R0 = 4; L0 = 20;
-R1 = 4; L1 = 120;       // the short branch
-R2 = 4; L2 = 180;       // the long branch
+R1 = 4; L1 = 30;        // the short branch
+R2 = 4; L2 = 45;        // the long branch
 angle = 30;             // of each branch to the tube, degrees
 a = angle*Pi/180;
 Cylinder(1) = {0, 0, -L0, 0, 0, L0, R0};
