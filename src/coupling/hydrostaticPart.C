@@ -47,14 +47,33 @@ void hydrostaticPart::setStep(scalar t0, scalar t1)
     before_ = part(c_.bodyForceAt(t0)), after_ = part(c_.bodyForceAt(t1));
 }
 
-void hydrostaticPart::add(particleCloud& cloud, const vector& toState, scalar sign) const
+// Mean of p - rho a.x where p is given, if a body force acts at all
+scalar hydrostaticPart::givenLevel(const particleCloud& cloud) const
+{
+    if (during_.isZero(0)) return 0;
+    scalar sum = 0;
+    label given = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+        if (cloud.pFixed[i])
+            sum += cloud.pGiven[i] - c_.rho * during_.dot(cloud.x[i].xyz()), ++given;
+    return given ? sum / given : 0;
+}
+
+void hydrostaticPart::take(particleCloud& cloud)
+{
+    level_ = givenLevel(cloud);
+    add(cloud, before_, level_, -1);
+}
+
+void hydrostaticPart::add(particleCloud& cloud, const vector& toState, scalar level,
+                          scalar sign) const
 {
     if (toState.isZero(0) && during_.isZero(0)) return;
     for (label i = 0; i < cloud.n(); ++i)
     {
         const vector x = cloud.x[i].xyz();
-        cloud.Up[i][3] += sign * c_.rho * toState.dot(x);
-        cloud.pGiven[i] += sign * c_.rho * during_.dot(x);
+        cloud.Up[i][3] += sign * (c_.rho * toState.dot(x) + level);
+        cloud.pGiven[i] += sign * (c_.rho * during_.dot(x) + level);
     }
 }
 
