@@ -279,7 +279,11 @@ struct imageMaker
     {
         if (e < cloud.n()) return cloud.addImage(e, ownRule, at, vec4::from(vector(0, 0, 0), p));
         vec4 b = turned(map.R, cloud.ghostOffset(e));
-        if (cloud.ghostSource(e) < 0) return cloud.addRigid(at, b.xyz());
+        if (cloud.ghostSource(e) < 0)
+        {
+            const vec4& depth = cloud.ghostDepth(e);
+            return cloud.addRigid(at, b.xyz(), at + depth[3] * (map.R * depth.xyz()));
+        }
         const label rule = cloud.ruleIndex(e);
         if (!productRule.count(rule))
         {

@@ -37,14 +37,14 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
 }
 
 // A neighbour that sees a rigid particle takes its velocity for that of the wall between them.  Behind a wall that
-// rotates it would be another one, and turn the fluid twice
+// rotates it would be another one, and turn the fluid twice; and viscosity wants to know how far off the wall is
 void wallSet::findFeet()
 {
     for (const body& b : bodies_)
         for (const label index : b.walls)
         {
             wall& w = walls_[index];
-            if (w.plane || !w.motion.rotates()) continue;
+            if (w.plane) continue;
             for (const vector& x : w.rigid)
             {
                 const surfaceFoot f = b.surface->find(x);
@@ -373,8 +373,10 @@ void wallSet::addRigid(particleCloud& cloud) const
     for (const wall& w : walls_)
         for (size_t k = 0; k < w.rigid.size(); ++k)
             if (const vector at = w.frame.toSpace(w.rigid[k]); cells.near(at))
-                cloud.addRigid(
-                    at, w.velocity.at(w.rigidFoot.empty() ? at : w.frame.toSpace(w.rigidFoot[k])));
+            {
+                const vector foot = w.frame.toSpace(w.footOf(k));
+                cloud.addRigid(at, w.velocity.at(w.motion.rotates() ? foot : at), foot);
+            }
 }
 
 }  // namespace ispf

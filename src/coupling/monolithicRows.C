@@ -14,7 +14,7 @@ struct view
     const kernelCorrection& B;
     const vec4* x;
     const vec4* phi;
-    const phaseType* phase;
+    const particleCloud& cloud;
     const scalar* c;  // laplacianScale
 
     ISPF_INLINE std::int64_t first(label i) const { return list.start[i]; }
@@ -22,15 +22,15 @@ struct view
     ISPF_INLINE std::int64_t last(label i) const { return list.start[i + 1]; }
 };
 
-// Rigid particles once more: their velocity is met on the wall, half-way to them, so that the
-// difference is twice as large
+// What rigid particles add: their velocity is met on the wall, before them
 ISPF_INLINE simd4 wallShare(const view& v, label i)
 {
     simd4 sum = {};
     for (std::int64_t k = v.mid(i); k < v.last(i); ++k)
     {
         const label j = v.list.index[k];
-        if (v.phase[j] == phaseType::rigid) sum += v.list.F[k] * (v.phi[j].s - v.phi[i].s);
+        if (v.cloud.phase[j] == phaseType::rigid)
+            sum += v.list.F[k] * (v.cloud.wallFactor(i, j) - 1) * (v.phi[j].s - v.phi[i].s);
     }
     return sum;
 }
@@ -156,7 +156,11 @@ void monolithicRows::setup(const particleCloud& cloud, const neighbourList& list
         {
             scalar sum = 0;
             for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
-                sum += cloud.phase[list.index[k]] == phaseType::rigid ? 2 * list.F[k] : list.F[k];
+            {
+                const label j = list.index[k];
+                sum +=
+                    list.F[k] * (cloud.phase[j] == phaseType::rigid ? cloud.wallFactor(i, j) : 1);
+            }
             sumF_[i] = scale_[i] * sum;
         }
     });
@@ -207,7 +211,7 @@ void monolithicRows::firstPass(const List<vec4>& phi, List<vec4>& gp, List<vec4>
 {
     const label n = cloud_->n();
     gp.resize(n), lap.resize(n), gs.resize(cloud_->nAll());
-    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data(), scale_.data()};
+    const view v{*list_, *B_, cloud_->x.data(), phi.data(), *cloud_, scale_.data()};
     parallelFor(n,
                 [&](label b, label e) { firstRange(v, b, e, gp.data(), lap.data(), gs.data()); });
     solidGradient(phi, gp);
@@ -217,7 +221,7 @@ void monolithicRows::firstPass(const List<vec4>& phi, List<vec4>& gp, List<vec4>
 void monolithicRows::secondPass(const List<vec4>& gs, List<scalar>& cp) const
 {
     cp.resize(cloud_->n());
-    const view v{*list_, *B_, cloud_->x.data(), gs.data(), cloud_->phase.data(), scale_.data()};
+    const view v{*list_, *B_, cloud_->x.data(), gs.data(), *cloud_, scale_.data()};
     parallelFor(cloud_->n(), [&](label b, label e) {
         if (volume_) secondRange(v, pairTau_.data(), b, e, gs.data(), cp.data());
         else secondFluidRange(v, fluidTau_, b, e, gs.data(), cp.data());
@@ -228,7 +232,7 @@ void monolithicRows::givenPart(const List<vec4>& g, List<scalar>& cp) const
 {
     if (volume_) return secondPass(g, cp);
     cp.resize(cloud_->n());
-    const view v{*list_, *B_, cloud_->x.data(), g.data(), cloud_->phase.data(), scale_.data()};
+    const view v{*list_, *B_, cloud_->x.data(), g.data(), *cloud_, scale_.data()};
     parallelFor(cloud_->n(), [&](label b, label e) {
         givenFluidRange(v, fluidTau_, b, e, g.data(), cp.data());
     });
@@ -237,14 +241,14 @@ void monolithicRows::givenPart(const List<vec4>& g, List<scalar>& cp) const
 void monolithicRows::viscousNeighbours(const List<vec4>& phi, List<vec4>& sum) const
 {
     sum.resize(cloud_->n());
-    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data(), scale_.data()};
+    const view v{*list_, *B_, cloud_->x.data(), phi.data(), *cloud_, scale_.data()};
     parallelFor(cloud_->n(), [&](label b, label e) { viscousRange(v, b, e, sum.data()); });
 }
 
 void monolithicRows::divergence(const List<vec4>& phi, List<scalar>& div) const
 {
     div.resize(cloud_->n());
-    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data(), scale_.data()};
+    const view v{*list_, *B_, cloud_->x.data(), phi.data(), *cloud_, scale_.data()};
     parallelFor(cloud_->n(), [&](label b, label e) { divergenceRange(v, b, e, div.data()); });
     solidDivergence(phi, [&](label i, scalar d) { div[i] = d; });
 }
@@ -252,7 +256,7 @@ void monolithicRows::divergence(const List<vec4>& phi, List<scalar>& div) const
 void monolithicRows::pressureGradient(const List<vec4>& phi, List<vec4>& gp) const
 {
     gp.resize(cloud_->n());
-    const view v{*list_, *B_, cloud_->x.data(), phi.data(), cloud_->phase.data(), scale_.data()};
+    const view v{*list_, *B_, cloud_->x.data(), phi.data(), *cloud_, scale_.data()};
     parallelFor(cloud_->n(), [&](label b, label e) { gradientRange(v, b, e, gp.data()); });
     solidGradient(phi, gp);
 }

@@ -51,7 +51,13 @@ public:
             for (label i = begin; i < end; ++i)
             {
                 scalar sum = 0;
-                for (auto k = s.list.start[i]; k < s.list.start[i + 1]; ++k) sum += s.list.F[k];
+                for (auto k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
+                {
+                    const label j = s.list.index[k];
+                    sum += s.cloud.phase[j] == phaseType::rigid
+                               ? s.cloud.wallFactor(i, j) * s.list.F[k]
+                               : s.list.F[k];
+                }
                 inverse_[i] = s.cloud.uFixed[i] ? 1 : 1 / (1 - 2 * dtNu * sum);
             }
         });

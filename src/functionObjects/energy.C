@@ -40,8 +40,9 @@ scalar dissipationOf(const presentState& s, scalar mu)
             {
                 const label j = s.list.index[k];
                 const bool rigid = cloud.phase[j] == phaseType::rigid;
-                const vector e = (rigid ? 2 : 1) * (cloud.Up[i].xyz() - cloud.Up[j].xyz());
-                part -= s.list.F[k] * (c[i] + (rigid ? c[i] : c[j])) * e.squaredNorm();
+                const scalar both = rigid ? 4 * c[i] * cloud.wallFactor(i, j) : c[i] + c[j];
+                const vector e = cloud.Up[i].xyz() - cloud.Up[j].xyz();
+                part -= s.list.F[k] * both * e.squaredNorm();
             }
         return part;
     });

@@ -83,11 +83,12 @@ public:
         {
             const label j = list.index[k], body = bodies_.of(i, j);
             if (body < 0) continue;
-            const bool rigid = cloud.phase[j] == phaseType::rigid;  // the surface, midway, twice
+            const bool rigid = cloud.phase[j] == phaseType::rigid;
             const scalar both = rigid ? 2 * scale_[i] : scale_[i] + scale_[j];
             const vector xi = cloud.x[i].xyz(), xj = cloud.x[j].xyz();
             const vector u =
-                (rigid ? 2 : 1) * (cloud.Up[i].xyz() - cloud.Up[j].xyz()) - turn_[body] * (xi - xj);
+                (rigid ? cloud.wallFactor(i, j) : 1) * (cloud.Up[i].xyz() - cloud.Up[j].xyz()) -
+                turn_[body] * (xi - xj);
             loads[body].add(0.5 * (xi + xj), -case_.mu * cloud.volume() * both * list.F[k] * u);
         }
     }

@@ -61,7 +61,7 @@ ISPF_HOT void laplacianRange(const stencil& s, const vec4* phi, const scalar* c,
             const label j = index[k];
             const bool rigid = s.cloud.phase[j] == phaseType::rigid;
             const simd4 e = F[k] * (c[i] + (rigid ? c[i] : c[j])) * (own - phi[j].s);
-            sum += rigid ? rigidWeight * e : e;
+            sum += rigid ? s.cloud.wallFactor(i, j) * e : e;
         }
         result[i].s = sum;
     }

@@ -92,7 +92,8 @@ void particleCloud::sortFluid(scalar cellSize)
 void particleCloud::clearGhosts()
 {
     x.resize(n_), Up.resize(n_), phase.resize(n_);
-    source_.clear(), rule_.clear(), offset_.clear(), through_.clear(), rules_.clear();
+    source_.clear(), rule_.clear(), offset_.clear(), through_.clear(), depth_.clear();
+    rules_.clear();
 }
 
 label particleCloud::addRule(const Eigen::Matrix4d& M, const tensor& R)
@@ -106,7 +107,7 @@ void particleCloud::addImage(label source, label rule, const vector& position, c
     x.push_back(vec4::from(position)), Up.push_back(vec4{});
     phase.push_back(phase[source]);
     source_.push_back(source), rule_.push_back(rule), offset_.push_back(b);
-    through_.push_back(vector::Zero());
+    through_.push_back(vector::Zero()), depth_.push_back(vec4{});
 }
 
 void particleCloud::addMirror(const imageSource& source, const vector& position, const vec4& b,
@@ -121,7 +122,14 @@ void particleCloud::addRigid(const vector& position, const vector& velocity)
     x.push_back(vec4::from(position)), Up.push_back(vec4::from(velocity));
     phase.push_back(phaseType::rigid);
     source_.push_back(-1), rule_.push_back(0), offset_.push_back(vec4::from(velocity));
-    through_.push_back(vector::Zero());
+    through_.push_back(vector::Zero()), depth_.push_back(vec4{});
+}
+
+void particleCloud::addRigid(const vector& position, const vector& velocity, const vector& foot)
+{
+    addRigid(position, velocity);
+    const scalar depth = (foot - position).norm();
+    if (depth > 0) depth_.back() = vec4::from((foot - position) / depth, depth);
 }
 
 void particleCloud::fillGhosts(List<vec4>& f, bool homogeneous) const
