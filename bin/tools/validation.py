@@ -96,6 +96,48 @@ def instants(folder):
     return sorted((t for t in os.listdir(folder) if re.fullmatch(r"[\d.eE+-]+", t)), key=float)
 
 
+def written():
+    """Names of the times with particles, without that of the start"""
+    return [t for t in instants(".") if float(t) > 0 and os.path.exists(os.path.join(t, "uniform"))]
+
+
+def field(time, name):
+    """Of the particles at a time that was written with writeFormat ascii, e.g. positions, U, p: numbers, or lists of three"""
+    with open(os.path.join(time, name), encoding="utf-8") as file:
+        text = file.read()
+    if "format      ascii" not in text[:400]:
+        sys.exit(f"{time}/{name} is no text: writeFormat in system/controlDict must be ascii")
+    lines = text[text.index("\n(\n") + 3:text.rindex("\n)")].split("\n")
+    return [[float(w) for w in line[1:-1].split()] if line.startswith("(") else float(line) for line in lines]
+
+
+def wallSlip(errors, reach):
+    """errors: (distance from a wall, difference of the velocity from the exact one).  What the particles within `reach` are
+    off, carried on to the wall along the line of least squares"""
+    near = [(d, e) for d, e in errors if d < reach]
+    ds, es = [d for d, _ in near], [e for _, e in near]
+    return sum(es) / len(es) - slope(ds, es) * sum(ds) / len(ds)
+
+
+def startUp(place, component, exact, walls, reach, since=0.0):
+    """A flow along walls, all particles at all written times beside exact(s, t), s = place(position): the largest error
+    ever from the time `since` on, that at the last time, and the largest slip at the walls, of which walls has functions
+    from s to the distance.  Writes comparison/profiles.dat: s, ours, exact"""
+    worst, last, slip, profiles = math.nan, math.nan, math.nan, []
+    for name in written():
+        t = float(name)
+        rows = sorted((place(x), u[component]) for x, u in zip(field(name, "positions"), field(name, "U")))
+        rows = [(s, u, exact(s, t)) for s, u in rows]
+        last = max(abs(u - known) for _, u, known in rows)
+        profiles.append((f"{t:g} s", rows))
+        if t < since:
+            continue
+        slips = [abs(wallSlip([(distance(s), u - known) for s, u, known in rows], reach)) for distance in walls]
+        worst, slip = max(last, worst), max(slips + [slip])  # in this order: nan is left behind
+    writeBlocks("comparison/profiles.dat", profiles)
+    return worst, last, slip
+
+
 def interpolated(x, xs, ys):
     """Between the two points of a rising list that hold x; nan beyond them"""
     for a, b, ya, yb in zip(xs, xs[1:], ys, ys[1:]):
@@ -148,6 +190,23 @@ def harmonic(times, values, omega):
     # Cramer's rule; the matrix is symmetric
     a, b = (det([right if i == k else normal[i] for i in range(3)]) / det(normal) for k in range(2))
     return math.hypot(a, b), math.atan2(b, a)
+
+
+def values(variants, quantity):
+    """For a study: (dx, value) of a quantity in those of its variants that have been run"""
+    found = []
+    for variant in variants:
+        path = os.path.join(variant, "comparison", "summary.csv")
+        if variant in os.environ["VARIANTS"].split() and os.path.exists(path):
+            with open(path, encoding="utf-8") as file:
+                found += [(number(f"{variant}/system/particleDict", "dx"), float(row["value"]))
+                          for row in csv.DictReader(file) if row["quantity"] == quantity]
+    return found
+
+
+def order(points):
+    """Of convergence: slope of the errors over the spacings, both logarithmic"""
+    return slope([math.log(dx) for dx, _ in points], [math.log(error) for _, error in points])
 
 
 def writeBlocks(path, blocks):

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the comparisons of hydrostaticBox and hydrostaticVessel have in common"""
+import math
+import sys
+from validation import Report, entry, history, instants, keys, number, table, vector, viscosity
+
+particles, patches = "system/particleDict", "constant/boundary"
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def openFaces(g, rho):
+    """p - rho g.x of each, and how deep it lies along g"""
+    size = math.sqrt(dot(g, g))
+    for name in keys(patches):
+        if entry(patches, f"{name}.type") != "open":
+            continue
+        if entry(patches, f"{name}.surface", "triSurface") != "plane":
+            sys.exit(f"{patches}: the reference is of open faces with surface plane; point and normal of {name} are not known")
+        point, normal = (vector(patches, f"{name}.{key}") for key in ("point", "normal"))
+        if abs(abs(dot(g, normal)) - size * math.sqrt(dot(normal, normal))) > 1e-9 * size:
+            sys.exit(f"{patches}: fluid behind {name} is at rest only if gravity is along its normal, as p is the same all over it")
+        yield number(patches, f"{name}.p") - rho * dot(g, point), dot(g, point) / size
+
+
+def compare():
+    """Fluid at rest: u = 0 and p = rho g.x + constant, exactly; the constant is free, or as open faces fix it"""
+    _, rho = viscosity()
+    g, dx = vector("constant/g", "value"), number(particles, "dx")
+    size = math.sqrt(dot(g, g))
+    if len(g) != 3 or size == 0:
+        sys.exit("constant/g: the reference is of a constant acceleration that is not zero, e.g. value (0 0 -9.81);")
+    faces = list(openFaces(g, rho))
+    if faces and max(level for level, _ in faces) - min(level for level, _ in faces) > 1e-12 * max(abs(l) for l, _ in faces):
+        sys.exit(f"{patches}: the pressures of the open faces drive a flow")
+    # Time, then value and position of min(U) max(U) min(p) max(p)
+    rows = history("extremes", "minMax.dat")
+    ends = [dot(rows[-1][k:k + 3], g) / size for k in (10, 14)]
+    top, bottom = min(ends) - dx / 2, max(ends) + dx / 2
+    for _, at in faces:  # particles beyond a face do not count
+        top, bottom = (max(top, at), bottom) if at < (top + bottom) / 2 else (top, min(bottom, at))
+    depth = bottom - top
+    fast = math.sqrt(size * depth)
+    shapes = {entry(particles, f"zones.{zone}.shape", "file") for zone in keys(particles, "zones")}
+    ordered = shapes == {"box"} and entry(particles, "placement", "lattice") == "lattice"
+
+    line = table(f"postProcessing/depth/{instants('postProcessing/depth')[-1]}/line.dat")  # distance, position, p
+    line = [row for row in line if not math.isnan(row[4])]
+    hydrostatic = [rho * dot(row[1:4], g) for row in line]
+    level = faces[0][0] if faces else sum(row[4] - p for row, p in zip(line, hydrostatic)) / len(line)
+    worst = max(abs(row[4] - p - level) for row, p in zip(line, hydrostatic))
+    with open("comparison/depth.dat", "w", encoding="utf-8") as out:
+        out.writelines(f"{row[0]} {row[4]} {p + level}\n" for row, p in zip(line, hydrostatic))
+
+    report = Report()
+    limit, reason = 1e-6 if ordered else 1e-3, "asked for: 1e-6 on a lattice with plane walls, 1e-3 otherwise, after 1000 steps"
+    report.below("largest speed at the end over sqrt(g H)", rows[-1][5] / fast, limit, reason)
+    report.below("largest speed at any time over sqrt(g H)", max(row[5] for row in rows) / fast, limit, reason)
+    report.below("largest error of p over rho g H", worst / (rho * size * depth), 1e-6,
+                 "gravity is carried exactly; what is left is what the solvers' tolerance leaves")
+    report.note("steps", len(rows) - 1, "")
+    return report.write()
