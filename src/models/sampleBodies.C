@@ -3,6 +3,7 @@
 #include "referenceNeighbours.H"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 namespace ispf
@@ -22,6 +23,17 @@ structureReference latticeBlock(int nx, int ny, int nz, scalar dx)
         for (int j = 0; j < ny; ++j)
             for (int i = 0; i < nx; ++i)
                 ref.x0.push_back(dx * vector(i + 0.5, j + 0.5, nz > 0 ? k + 0.5 : 0));
+    ref.fixed.assign(ref.x0.size(), 0);
+    return ref;
+}
+
+structureReference triangularBlock(int nx, int ny, scalar dx)
+{
+    structureReference ref = emptyReference(2, dx);
+    const scalar row = std::sqrt(std::sqrt(0.75)) * dx, apart = dx * dx / row;
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i)
+            ref.x0.push_back({apart * (i + (j % 2 ? 0.75 : 0.25)), row * (j + 0.5), 0});
     ref.fixed.assign(ref.x0.size(), 0);
     return ref;
 }

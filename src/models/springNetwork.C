@@ -8,6 +8,7 @@
 // symmetry planes carries a quarter of its energy, and
 //
 //     f_i = -sum k (d - d0) n,   K_ii += A,   K_ij -= A R,   A = k [n n^T + (1 - d0/d)(I - n n^T)]
+//     tau_i = 1/(2 V) sum k (d - d0) d n n^T
 #include "springLinks.H"
 #include "structureModel.H"
 #include "parallel.H"
@@ -87,6 +88,7 @@ public:
 
     void force(const List<vec4>& x, List<vec4>& f) const override;
     scalar energy(const List<vec4>& x) const override;
+    void stress(const List<vec4>& x, List<tensor>& tau) const override;
     blockMatrix3 tangentPattern() const override { return pattern_; }
     void assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const override;
     scalar maxLinkForce(const List<vec4>& x) const override;
@@ -167,6 +169,20 @@ scalar springNetwork::energy(const List<vec4>& x) const
                 sum += 0.25 * links_.k[p] * stretch * stretch;
             }
         return sum;
+    });
+}
+
+void springNetwork::stress(const List<vec4>& x, List<tensor>& tau) const
+{
+    tau.assign(size_t(n()), tensor::Zero());
+    parallelFor(n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            for (std::int64_t p = links_.start[i]; p < links_.start[i + 1]; ++p)
+            {
+                const vector e = separation(x, i, p);
+                const scalar weight = links_.k[p] * (1 - links_.d0[p] / e.norm());
+                tau[i] += weight / (2 * ref_.volume()) * e * e.transpose();
+            }
     });
 }
 

@@ -100,7 +100,7 @@ TEST_CASE("functions that change during a run")
 TEST_CASE("mistakes in functions")
 {
     CHECK_ERROR(wrong("a { type probe; }"),
-                "Valid types are: cavityVolume energy forces lineProfile", 3);
+                "Valid types are: cavityVolume energy errorNorm forces lineProfile", 3);
     CHECK_ERROR(wrong("a { type minMax; feilds (p); }"), "Did you mean 'fields'?", 3);
     CHECK_ERROR(wrong("a { type minMax; fields (T); }"), "Valid fields are: U p", 3);
     CHECK_ERROR(wrong("a { type minMax; zones (wall); }"), "Valid zones are: chamber", 3);

@@ -5,12 +5,13 @@
 // Each body, free and incompressible, carries a uniform uniaxial stress s (uniformStressTest); the
 // median strain e of its middle gives E = s/e (plane strain tension modulus, 4 G, in 2D), printed over
 // the modulus that the links name.  Where E or G asks for a modulus every body is judged, 5 % allowed; with
-// k_e nothing is asked: the printed modulus is the one to quote.
+// k_e nothing is asked: the printed modulus is the one to quote.  -response: springResponse.H
 #include "argList.H"
 #include "cloudIO.H"
 #include "fileNames.H"
 #include "particleTable.H"
 #include "sampleBodies.H"
+#include "springResponse.H"
 #include "uniformStressTest.H"
 
 #include <algorithm>
@@ -155,11 +156,22 @@ int run(int argc, char** argv)
         "one must be within 5 % of it, else the exit status is 1; with k_e none is judged.");
     args.addOption("layers", "list", "thickness of the slabs in particles (default \"3 4 5 8\")");
     args.addSwitch("bodyOnly", "only the case's own body");
+    args.addSwitch(
+        "response",
+        "instead, stresses in the large homogeneous motions of system/calibrateSpringsDict");
     if (!args.parse(argc, argv)) return 0;
     args.printHeader();
 
     const dictionary properties =
         dictionary::fromFile(args.caseFolder() + "/constant/structureProperties");
+    const dictionary schemes =
+        dictionary::fromFileIfPresent(args.caseFolder() + "/system/sphSchemes");
+    const scalar hByDx = schemes.getInRangeOrDefault("hByDx", 0.5, 4, 1.3);
+    if (args.found("response"))
+    {
+        springResponse(args.caseFolder(), properties, hByDx);
+        return 0;
+    }
     const word file = args.caseFolder() + "/0/particles.hdf";
     const bool hasBody = std::filesystem::exists(file);
     if (args.found("bodyOnly") && !hasBody)
@@ -188,7 +200,11 @@ int run(int argc, char** argv)
     info() << "\nE measured/E named, tension of the free body along each direction\n\n"
            << padded("body", 28) << padded("particles", 10) << "\n";
     range found;
-    for (const sample& s : samples) measure(properties, s, found);
+    for (sample& s : samples)
+    {
+        s.body.h = hByDx * s.body.dx;
+        measure(properties, s, found);
+    }
     info() << "\nfrom " << str(found.low, 3) << " to " << str(found.high, 3) << ": ";
     if (properties.found("k_e"))
     {
