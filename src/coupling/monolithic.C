@@ -19,6 +19,7 @@
 #include "FGMRES.H"
 #include "monolithicPreconditioner.H"
 #include "particleShifting.H"
+#include "shiftingFrame.H"
 #include "stepReport.H"
 #include "volumeLedger.H"
 #include "worstRow.H"
@@ -52,7 +53,7 @@ public:
           absTolerance_(dict_.getInRangeOrDefault("absTolerance", 0, 0.1, 1e-5)),
           maxIter_(dict_.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
           makesGood_(dict_.getOrDefault("divergenceDefect", true)),
-          shifting_(c.solution.subOrEmptyDict("shifting")),
+          shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c)),
           density_(c.solution, *c.kernel, c.cloud)
     {
         system_.enclosed().makeGood(makesGood_);

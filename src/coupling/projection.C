@@ -18,6 +18,7 @@
 #include "particleShifting.H"
 #include "projectionLimits.H"
 #include "projectionStep.H"
+#include "shiftingFrame.H"
 #include "stepReport.H"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ public:
           limits_(c, explicit_, mean_, dict_.subOrEmptyDict("limits")),
           step_(c.rho, c.mu, explicit_ ? "explicit" : "implicit",
                 operatorSchemes::fromDict(c.schemes), c.solution),
-          shifting_(c.solution.subOrEmptyDict("shifting")),
+          shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c)),
           density_(c.solution, *c.kernel, c.cloud),
           hydrostatic_(c)
     {

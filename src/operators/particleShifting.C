@@ -66,28 +66,48 @@ ISPF_HOT void evaluate(const shiftRows& s, label begin, label end, change* resul
 
 }  // namespace
 
-particleShifting::particleShifting(const dictionary& dict)
+particleShifting::particleShifting(const dictionary& dict, const word& frame)
 {
     if (dict.chooseOrDefault("type", {"Xu", "none"}, "Xu") == "none") return;
     constant_ = dict.getInRangeOrDefault("constant", 0, 1, 0.1);
     maxShift_ = dict.getInRangeOrDefault("maxShift", 0, 0.2, 0.05);
+    againstMean_ = dict.chooseOrDefault("frame", {"still", "mean"}, frame) == "mean";
+}
+
+scalar particleShifting::speed(const particleCloud& cloud) const
+{
+    if (!againstMean_) return cloud.maxSpeed();
+    const label n = cloud.n();
+    vector mean;
+    for (int d = 0; d < 3; ++d)
+        mean[d] = parallelSum(n,
+                              [&](label begin, label end) {
+                                  scalar sum = 0;
+                                  for (label i = begin; i < end; ++i) sum += cloud.Up[i][d];
+                                  return sum;
+                              }) /
+                  n;
+    return std::sqrt(maxOf(n, [&](label begin, label end) {
+        scalar most = 0;
+        for (label i = begin; i < end; ++i)
+            most = std::max(most, (cloud.Up[i].xyz() - mean).squaredNorm());
+        return most;
+    }));
 }
 
 word particleShifting::describe() const
 {
-    return on() ? "Xu, constant " + str(constant_) + ", at most " + str(maxShift_) + " dx" : "none";
+    if (!on()) return "none";
+    return "Xu, constant " + str(constant_) + ", at most " + str(maxShift_) + " dx" +
+           (againstMean_ ? ", by the speed against the mean" : "");
 }
 
 void particleShifting::shift(particleCloud& cloud, const neighbourList& list,
                              const kernelCorrection& correction, scalar dt,
                              const std::function<bool(label)>& leaveAlone) const
 {
-    const shiftRows rows{cloud,
-                         list,
-                         correction,
-                         leaveAlone,
-                         constant_ * cloud.maxSpeed() * dt,
-                         maxShift_ * cloud.dx};
+    const shiftRows rows{
+        cloud, list, correction, leaveAlone, constant_ * speed(cloud) * dt, maxShift_ * cloud.dx};
     if (!(rows.alpha > 0)) return;
     cloud.fillGhosts(cloud.Up, false);
 
