@@ -185,6 +185,31 @@ void enclosedFluid::removeMean(Counts&& counts, label n, List<scalar>& rows) con
     });
 }
 
+bool enclosedFluid::ofFreeBody(label i) const
+{
+    const label b = c_.cloud.isFluid(i) ? bodyOf_[c_.cloud.zone[i]] : -1;
+    return b >= 0 && bodies_[b].free;
+}
+
+void enclosedFluid::dropLevel(List<vec4>& up) const
+{
+    if (!allFree_) return;
+    const label n = c_.cloud.n(), nSolid = c_.cloud.nSolid();
+    const auto sumOf = [&](const auto& value) {
+        return parallelSum(n - nSolid, [&](label begin, label end) {
+            scalar sum = 0;
+            for (label i = nSolid + begin; i < nSolid + end; ++i)
+                if (!ofFreeBody(i)) sum += value(i);
+            return sum;
+        });
+    };
+    const scalar mean = sumOf([&](label i) { return up[i][3]; }) / sumOf([](label) { return 1; });
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            if (!ofFreeBody(i)) up[i][3] -= mean;
+    });
+}
+
 void enclosedFluid::keepLevel(const particleCloud& cloud, List<scalar>& z) const
 {
     const label others = label(bodies_.size());  // all that no free body has, solids as well
@@ -211,8 +236,7 @@ void enclosedFluid::balance(List<scalar>& rows) const
         removeMean([&](label i) { return bodyOf(i) == b; }, bodies_[b].n, rows);
         others -= bodies_[b].n;
     }
-    const auto ofNone = [&](label i) { return bodyOf(i) < 0 || !bodies_[bodyOf(i)].free; };
-    if (allFree_) removeMean(ofNone, others, rows);
+    if (allFree_) removeMean([&](label i) { return !ofFreeBody(i); }, others, rows);
 }
 
 }  // namespace ispf

@@ -113,6 +113,7 @@ void monolithicSystem::apply(const List<scalar>& x, List<scalar>& y) const
     const label n = cloud.n(), nSolid = cloud.nSolid();
     phi_.resize(cloud.nAll());
     std::copy(x.begin(), x.end(), reinterpret_cast<scalar*>(phi_.data()));
+    enclosed_.dropLevel(phi_);
     cloud.fillGhosts(phi_, true);
     rows_.firstPass(phi_, gp_, lap_, gs_);
     leaveToGiven(gs_);
