@@ -2,6 +2,7 @@
 #include "followWeights.H"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ispf
 {
@@ -58,8 +59,10 @@ List<scalar> followWeights(const List<vector>& r)
     {
         const vector& x = r[j];
         linear.columns.row(j) = root[j] * x.transpose();
-        quadratic.columns.row(j) = root[j] * row{{x[0] * x[0], x[1] * x[1], x[2] * x[2],
-                                                  x[0] * x[1], x[1] * x[2], x[2] * x[0]}};
+        // Kelvin's components: what is cut does not depend on the direction of the axes
+        quadratic.columns.row(j) =
+            root[j] * row{{x[0] * x[0], x[1] * x[1], x[2] * x[2], std::sqrt(2.0) * x[0] * x[1],
+                           std::sqrt(2.0) * x[1] * x[2], std::sqrt(2.0) * x[2] * x[0]}};
     }
     const scalar scale = root.norm();
     one = {one.columns / scale, one.atPoint / scale};
