@@ -133,7 +133,8 @@ void monolithic::structureState()
     c_.structure->assembleTangent(c_.cloud.x, tangentKind::positive, K_);
     surface_.initialise(c_.cloud, c_.list, *c_.kernel, F_);
     volume_->setup(F_);
-    surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor());
+    surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor(),
+                   c_.structure->reference().images);
 }
 
 // The last step's change goes on.  With a pressure that rises steadily this starts nearer to the

@@ -185,10 +185,11 @@ void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
 }
 
 void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
-                         const smoothingKernel& kernel, const List<tensor>& cofactor)
+                         const smoothingKernel& kernel, const List<tensor>& cofactor,
+                         const List<isometry>& images)
 {
     cloud_ = &cloud, list_ = &list;
-    if (feet_[0].start.empty()) findFeet(cloud, kernel.support());
+    if (feet_[0].start.empty()) findFeet(cloud, kernel.support(), images);
     const label nSolid = cloud.nSolid();
     start_.assign(nSolid + 1, 0);
     for (label i = 0; i < nSolid; ++i) start_[i + 1] = start_[i] + list.start[i + 1] - list.mid[i];
@@ -201,13 +202,50 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
         256);
 }
 
-// The feet do not move within the solid: found once, from the rest state
-void solidSurface::findFeet(const particleCloud& cloud, scalar support)
+namespace
 {
+
+// The solid at rest and its images as far as the feet of particles may reach
+struct restPoints
+{
+    pointGrid grid;
+    List<label> source, image;  // image 0: the solid itself
+
+    restPoints(const List<vec4>& x0, label nSolid, scalar reach, const List<isometry>& images)
+        : grid(reach)
+    {
+        vector low = x0[0].xyz(), high = low;
+        for (label j = 0; j < nSolid; ++j)
+        {
+            low = low.cwiseMin(x0[j].xyz()), high = high.cwiseMax(x0[j].xyz());
+            add(x0[j].xyz(), j, 0);
+        }
+        low.array() -= 2 * reach, high.array() += 2 * reach;
+        for (size_t m = 0; m < images.size(); ++m)
+            for (label j = 0; j < nSolid; ++j)
+                if (const vector x = images[m](x0[j].xyz());
+                    (x.array() >= low.array()).all() && (x.array() <= high.array()).all())
+                    add(x, j, label(m + 1));
+    }
+
+private:
+    void add(const vector& x, label j, label m)
+    {
+        grid.add(x), source.push_back(j), image.push_back(m);
+    }
+};
+
+}  // namespace
+
+// The feet do not move within the solid: found once, from the rest state
+void solidSurface::findFeet(const particleCloud& cloud, scalar support,
+                            const List<isometry>& images)
+{
+    turn_ = {tensor::Identity()};
+    for (const isometry& m : images) turn_.push_back(m.R);
     const List<vec4>& x0 = cloud.vectors.at("x0");
     const scalar reach = std::max(3 * cloud.dx, support);
-    pointGrid solids(reach);
-    for (label j = 0; j < cloud.nSolid(); ++j) solids.add(x0[j].xyz());
+    const restPoints solids(x0, cloud.nSolid(), reach, images);
     for (const int s : {0, 1})
     {
         const List<vec4>&A = cloud.vectors.at(areaField[s]), &e = cloud.vectors.at(wayField[s]);
@@ -221,9 +259,9 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support)
                     if (A[i][3] == 0) continue;
                     const vector foot = x0[i].xyz() + e[i].xyz();
                     List<vector> r;
-                    solids.within(foot, reach, [&](label j, scalar) { near[i].push_back(j); });
+                    solids.grid.within(foot, reach, [&](label k, scalar) { near[i].push_back(k); });
                     std::sort(near[i].begin(), near[i].end());
-                    for (const label j : near[i]) r.push_back((solids[j] - foot) / reach);
+                    for (const label k : near[i]) r.push_back((solids.grid[k] - foot) / reach);
                     weight[i] = followWeights(r);
                     if (weight[i].empty()) near[i] = {i}, weight[i] = {1};
                 }
@@ -233,7 +271,8 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support)
         f.start.push_back(0);
         for (label i = 0; i < cloud.nSolid(); ++i)
         {
-            f.source.insert(f.source.end(), near[i].begin(), near[i].end());
+            for (const label k : near[i])
+                f.source.push_back(solids.source[k]), f.image.push_back(solids.image[k]);
             f.weight.insert(f.weight.end(), weight[i].begin(), weight[i].end());
             f.start.push_back(label(f.source.size()));
         }
@@ -246,7 +285,11 @@ vector solidSurface::areaVector(int s, label i, const List<tensor>& cofactor) co
     const feet& f = feet_[s];
     tensor there = tensor::Zero();
     for (label k = f.start[i]; k < f.start[i + 1]; ++k)
-        there += f.weight[k] * cofactor[f.source[k]];
+    {
+        const tensor& R = turn_[f.image[k]];
+        if (f.image[k] == 0) there += f.weight[k] * cofactor[f.source[k]];
+        else there += f.weight[k] * R * cofactor[f.source[k]] * R.transpose();
+    }
     return there * cloud_->vectors.at(areaField[s])[i].xyz();
 }
 
@@ -259,13 +302,14 @@ scalar solidSurface::flux(const List<vec4>& u, const List<tensor>& cofactor,
             for (const int s : {0, 1})
             {
                 if (part_[s][i].side < 0 || !zones[part_[s][i].side]) continue;
-                simd4 at = {};
+                vector at = vector::Zero();
                 // what is clamped moves as one up to its edge, whatever its neighbours' motion extrapolates to
-                if (cloud_->uFixed[i]) at = u[i].s;
+                const feet& f = feet_[s];
+                if (cloud_->uFixed[i]) at = u[i].xyz();
                 else
-                    for (label k = feet_[s].start[i]; k < feet_[s].start[i + 1]; ++k)
-                        at += feet_[s].weight[k] * u[feet_[s].source[k]].s;
-                sum -= areaVector(s, i, cofactor).dot(vector(at[0], at[1], at[2]));
+                    for (label k = f.start[i]; k < f.start[i + 1]; ++k)
+                        at += f.weight[k] * (turn_[f.image[k]] * u[f.source[k]].xyz());
+                sum -= areaVector(s, i, cofactor).dot(at);
             }
         return sum;
     });

@@ -28,6 +28,15 @@ ISPF_HOT void productRange(const blockMatrix3& A, label begin, label end, const 
     }
 }
 
+// With what a row has of its own unknown among the others
+tensor wholeDiagonal(const blockMatrix3& A, label i)
+{
+    tensor D = A.diagonal[i];
+    for (label k = A.rowStart[i]; k < A.rowStart[i + 1]; ++k)
+        if (A.column[k] == i) D += A.value[k];
+    return D;
+}
+
 }  // namespace
 
 void blockMatrix3::apply(const List<vec4>& x, List<vec4>& y) const
@@ -38,10 +47,15 @@ void blockMatrix3::apply(const List<vec4>& x, List<vec4>& y) const
 csrMatrix blockMatrix3::thirdOfTrace() const
 {
     csrMatrix A;
-    A.rowStart = rowStart, A.column = column;
-    A.value.resize(value.size()), A.diagonal.resize(size());
-    for (size_t k = 0; k < value.size(); ++k) A.value[k] = value[k].trace() / 3;
-    for (label i = 0; i < size(); ++i) A.diagonal[i] = diagonal[i].trace() / 3;
+    A.rowStart.assign(1, 0), A.diagonal.resize(size());
+    for (label i = 0; i < size(); ++i)
+    {
+        for (label k = rowStart[i]; k < rowStart[i + 1]; ++k)
+            if (column[k] != i)
+                A.column.push_back(column[k]), A.value.push_back(value[k].trace() / 3);
+        A.rowStart.push_back(label(A.column.size()));
+        A.diagonal[i] = wholeDiagonal(*this, i).trace() / 3;
+    }
     return A;
 }
 
@@ -55,14 +69,18 @@ csrMatrix blockMatrix3::expanded() const
         if (i != j || r != c) A.column.push_back(3 * j + c), A.value.push_back(v);
     };
     for (label i = 0; i < size(); ++i)
+    {
+        const tensor D = wholeDiagonal(*this, i);
         for (int r = 0; r < 3; ++r)
         {
-            for (int c = 0; c < 3; ++c) add(i, r, i, c, diagonal[i](r, c));
+            for (int c = 0; c < 3; ++c) add(i, r, i, c, D(r, c));
             for (label k = rowStart[i]; k < rowStart[i + 1]; ++k)
-                for (int c = 0; c < 3; ++c) add(i, r, column[k], c, value[k](r, c));
-            A.diagonal.push_back(diagonal[i](r, r));
+                for (int c = 0; c < 3 && column[k] != i; ++c)
+                    add(i, r, column[k], c, value[k](r, c));
+            A.diagonal.push_back(D(r, r));
             A.rowStart.push_back(label(A.column.size()));
         }
+    }
     return A;
 }
 

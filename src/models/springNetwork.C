@@ -9,6 +9,8 @@
 //
 //     f_i = -sum k (d - d0) n,   K_ii += A,   K_ij -= A R,   A = k [n n^T + (1 - d0/d)(I - n n^T)]
 //     tau_i = 1/(2 V) sum k (d - d0) d n n^T
+//
+// A link to an image of the particle itself has its -A R in an entry of column i: K_ii is no other than in a whole body.
 #include "springLinks.H"
 #include "structureModel.H"
 #include "parallel.H"
@@ -29,7 +31,7 @@ struct linkTable
     List<std::uint16_t> image;      // 0: the partner itself, m: images[m - 1]
     List<scalar> d0, k;
     List<label>
-        slot;  // block of the tangent's row; -1: the diagonal (image of the particle itself)
+        slot;  // block of the tangent's row; links to images of the particle itself have one, too
 };
 
 // Rows of the links that move: between two clamped particles none is kept
@@ -122,14 +124,13 @@ void springNetwork::makePattern()
     {
         std::set<std::int32_t> columns(links_.index.begin() + links_.start[i],
                                        links_.index.begin() + links_.start[i + 1]);
-        columns.erase(i);
         pattern_.column.insert(pattern_.column.end(), columns.begin(), columns.end());
         const label first = pattern_.rowStart.back(), last = label(pattern_.column.size());
         for (std::int64_t p = links_.start[i]; p < links_.start[i + 1]; ++p)
         {
             const auto at = std::lower_bound(pattern_.column.begin() + first, pattern_.column.end(),
                                              links_.index[p]);
-            links_.slot[p] = links_.index[p] == i ? -1 : label(at - pattern_.column.begin());
+            links_.slot[p] = label(at - pattern_.column.begin());
         }
         pattern_.rowStart.push_back(last);
     }
@@ -195,7 +196,7 @@ void springNetwork::tangentRow(const List<vec4>& x, bool positive, label i, bloc
         const tensor A =
             linkBlock(separation(x, i, p), links_.k[p], links_.d0[p], positive, ref_.nDims);
         K.diagonal[i] += A;
-        tensor& block = links_.slot[p] < 0 ? K.diagonal[i] : K.value[links_.slot[p]];
+        tensor& block = K.value[links_.slot[p]];
         if (links_.image[p]) block -= A * ref_.images[links_.image[p] - 1].R;
         else block -= A;
     }

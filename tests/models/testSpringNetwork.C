@@ -78,9 +78,9 @@ Eigen::MatrixXd dense(const blockMatrix3& K)
     Eigen::MatrixXd D = Eigen::MatrixXd::Zero(3 * K.size(), 3 * K.size());
     for (label i = 0; i < K.size(); ++i)
     {
-        D.block<3, 3>(3 * i, 3 * i) = K.diagonal[i];
+        D.block<3, 3>(3 * i, 3 * i) += K.diagonal[i];
         for (label s = K.rowStart[i]; s < K.rowStart[i + 1]; ++s)
-            D.block<3, 3>(3 * i, 3 * K.column[s]) = K.value[s];
+            D.block<3, 3>(3 * i, 3 * K.column[s]) += K.value[s];
     }
     return D;
 }
