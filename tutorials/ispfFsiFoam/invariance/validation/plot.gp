@@ -2,7 +2,7 @@
 out = 'comparison/invariance.png'
 load common
 set xlabel 'steps since the transformation'; set ylabel 'difference from the run as it is'
-set logscale y; set format y '%.0e'
+set logscale y; set yrange [1e-18:*]; set format y '%.0e'
 set key bottom right
 shown(x) = x > 0 ? x : 1e-17
 data = 'comparison/differences.dat'
