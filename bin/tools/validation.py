@@ -83,14 +83,6 @@ def history(name, file):
     return rows
 
 
-def field(path):
-    """Of a state with writeFormat ascii, e.g. 0.5/positions: one number, or list of three, per particle"""
-    with open(path, encoding="utf-8") as file:
-        inside = file.read().split("\n(\n", 1)[1].rsplit("\n)", 1)[0].splitlines()
-    rows = [[float(w) for w in line.strip("()").split()] for line in inside]
-    return rows if rows and len(rows[0]) > 1 else [row[0] for row in rows]
-
-
 def instants(folder):
     """Names of the times that a function object has written, in their order"""
     return sorted((t for t in os.listdir(folder) if re.fullmatch(r"[\d.eE+-]+", t)), key=float)
