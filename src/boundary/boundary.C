@@ -61,6 +61,11 @@ void boundary::clampSolids(particleCloud& cloud, const List<vec4>& x0, const dic
     }
 }
 
+bool boundary::hasCyclic() const
+{
+    return !content_->cyclic.empty();
+}
+
 bool boundary::hasOpen() const
 {
     return !content_->openFaces.empty();
@@ -104,6 +109,11 @@ void boundary::content::putBack(particleCloud& cloud)
         }
         cloud.x[i].setXyz(x), cloud.Up[i].setXyz(u);
     }
+}
+
+vector boundary::wayOverCyclic(const vector& x) const
+{
+    return content_->group.wayOverCyclic(x);
 }
 
 label boundary::exchange(particleCloud& cloud, scalar t1)

@@ -133,10 +133,14 @@ void imageGroup::checkAngles() const
 
 void imageGroup::checkInside(const particleCloud& cloud) const
 {
+    const auto rest = cloud.vectors.find("x0");
     for (const side& s : sides_)
         for (label i = 0; i < cloud.n(); ++i)
         {
-            const scalar out = (cloud.x[i].xyz() - s.point).dot(s.normal);
+            scalar out = (cloud.x[i].xyz() - s.point).dot(s.normal);
+            // a solid that has set out over a cyclic plane began within it
+            if (s.cyclic && i < cloud.nSolid() && rest != cloud.vectors.end())
+                out = std::min(out, (rest->second[i].xyz() - s.point).dot(s.normal));
             if (out < 0.5 * cloud.dx) continue;
             throw fatalError("Particle " + std::to_string(cloud.id[i]) + " lies " +
                              str(out / cloud.dx) + " dx beyond patch " + s.patch +
@@ -171,7 +175,8 @@ void imageGroup::checkInside(const particleCloud& cloud) const
 boundBox imageGroup::regionOf(const particleCloud& cloud) const
 {
     boundBox box;
-    for (label i = 0; i < cloud.n(); ++i) box.add(cloud.x[i].xyz());
+    for (label i = 0; i < cloud.n(); ++i)
+        if (beyond(cloud.x[i].xyz()) < 0.5 * cloud.dx) box.add(cloud.x[i].xyz());
     const boundBox inner = box;
     for (const side& s : sides_)
         for (const vector& c : corners(inner)) box.add(c - (c - s.point).dot(s.normal) * s.normal);
@@ -298,9 +303,31 @@ struct imageMaker
 
 }  // namespace
 
+// Solids are carried over a cyclic plane as whole bodies: what they reach beyond it sees as far from there
+scalar imageGroup::reach(const particleCloud& cloud) const
+{
+    scalar most = 0;
+    for (label i = 0; i < cloud.nSolid(); ++i)
+        for (const side& s : sides_)
+            if (s.cyclic) most = std::max(most, (cloud.x[i].xyz() - s.point).dot(s.normal));
+    return support_ + most;
+}
+
+vector imageGroup::wayOverCyclic(const vector& x) const
+{
+    vector way = vector::Zero();
+    for (size_t k = 0; k < 8 * sides_.size(); ++k)
+    {
+        const side& s = sides_[k % sides_.size()];
+        if (s.cyclic && (x + way - s.point).dot(s.normal) > 0) way += s.back.t;
+    }
+    return way;
+}
+
 void imageGroup::addImages(particleCloud& cloud, List<vector>& facing) const
 {
     if (maps_.empty()) return;
+    const scalar reach = this->reach(cloud);
     List<imageMaker> makers;
     for (const structureImage& map : maps_) makers.emplace_back(cloud, map, pressureOffset(map));
     const label n = cloud.nAll();
@@ -308,12 +335,12 @@ void imageGroup::addImages(particleCloud& cloud, List<vector>& facing) const
     for (label e = 0; e < n; ++e)
     {
         const vector x = cloud.x[e].xyz();
-        if (beyond(x) < -support_) continue;
+        if (beyond(x) < -reach) continue;
         taken.assign(1, x);  // a particle on a plane is its own image
         for (imageMaker& maker : makers)
         {
             const vector at = maker.map(x);
-            if (beyond(at) >= support_) continue;
+            if (beyond(at) >= reach) continue;
             bool free = true;
             for (const vector& other : taken) free = free && (at - other).norm() > tiny_;
             if (!free) continue;

@@ -144,6 +144,29 @@ void fsiCase::readKernel()
                          " dx: too few neighbours. It must be 1.8 dx at least, better 2 to 3");
 }
 
+// Particles that the pattern's entries join, without bodies that are clamped somewhere
+static List<List<label>> freeBodies(const blockMatrix3& pattern, const List<char>& fixed)
+{
+    const label n = label(pattern.rowStart.size()) - 1;
+    List<char> seen(n, 0);
+    List<List<label>> bodies;
+    for (label first = 0; first < n; ++first)
+    {
+        if (seen[first]) continue;
+        List<label> body = {first};
+        seen[first] = 1;
+        bool clamped = false;
+        for (size_t k = 0; k < body.size(); ++k)
+        {
+            clamped = clamped || fixed[body[k]];
+            for (label s = pattern.rowStart[body[k]]; s < pattern.rowStart[body[k] + 1]; ++s)
+                if (const label j = pattern.column[s]; !seen[j]) seen[j] = 1, body.push_back(j);
+        }
+        if (!clamped) bodies.push_back(std::move(body));
+    }
+    return bodies;
+}
+
 void fsiCase::readStructure()
 {
     const dictionary properties =
@@ -169,6 +192,7 @@ void fsiCase::readStructure()
         ref.x0.push_back(rest[i].xyz()), ref.fixed.push_back(cloud.uFixed[i]);
     for (const structureImage& m : walls->images()) ref.images.push_back({m.R, m.t});
     structure = structureModel::New(properties, ref);
+    if (walls->hasCyclic()) bodies_ = freeBodies(structure->tangentPattern(), cloud.uFixed);
 }
 
 scalar fsiCase::stepEnd() const
@@ -207,6 +231,7 @@ void fsiCase::countStrays()
 void fsiCase::updateNeighbours(scalar t0, scalar t1)
 {
     walls->setStep(t0, t1);
+    carrySolids();
     sortParticles();
     bodyForce = bodyForceAt(0.5 * (t0 + t1));
     walls->setFlags(cloud, rho, bodyForce);
@@ -214,6 +239,25 @@ void fsiCase::updateNeighbours(scalar t0, scalar t1)
     list.build(cloud, *kernel, walls->visible(cloud));
     correction.build(cloud, list);
     countStrays();
+}
+
+// A body whose centre has passed a cyclic plane goes on at the other, as a whole: only differences of its positions
+// count, also for links to its own images
+void fsiCase::carrySolids()
+{
+    for (const List<label>& body : bodies_)
+    {
+        vector centre = vector::Zero();
+        for (const label i : body) centre += cloud.x[i].xyz() / scalar(body.size());
+        const vector way = walls->wayOverCyclic(centre);
+        if (way.isZero(0)) continue;
+        if (walls->pressureOffset({tensor::Identity(), way}) != 0)
+            throw fatalError("Time " + time.timeName() + " s: " + cloud.describe(body.front()) +
+                             " and its body have passed a cyclic patch with a pressureDrop, of "
+                             "which the body's load does not know. Drive the fluid's zone with "
+                             "bodyForce in constant/physicalProperties instead");
+        for (const label i : body) cloud.x[i].setXyz(cloud.x[i].xyz() + way);
+    }
 }
 
 void fsiCase::followOpen(scalar dt)

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A soft disc in fluid, all of it moving at one speed, passes the planes of cyclic pairs: nothing happens
+#include "caseOnDisk.H"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace ispf;
+
+namespace
+{
+
+constexpr scalar dx = 0.05, side = 20 * dx;
+const vector drift = {1, 0.5, 0};
+
+// The unit square, solids first: those within the radius of the middle, or, in a strip, those at middle height
+void place(caseOnDisk& files, bool strip)
+{
+    files.fill(20, 20, dx);
+    particleTable& t = files.particles();
+    const particleTable all = t;
+    const auto isSolid = [&](const vector& x) {
+        const vector r = x - vector(0.5 * side, 0.5 * side, 0);
+        return strip ? std::abs(r[1]) < 3 * dx : r.norm() < 4 * dx;
+    };
+    size_t n = 0;
+    for (const bool solid : {true, false})
+        for (const vector& x : all.x)
+            if (isSolid(x) == solid) t.x[n] = x, t.integers["zone"][n] = solid, ++n;
+    for (vector& u : t.vectors["U"]) u = drift;
+    t.attributes["zones"] = "fluid solid", t.attributes["phases"] = "fluid solid";
+}
+
+}  // namespace
+
+TEST_CASE("a solid that drifts over cyclic planes does so unnoticed, with both couplings")
+{
+    for (const word coupling : {"projection", "monolithic"})
+        for (const bool strip : {false, true})
+        {
+            CAPTURE(coupling);
+            CAPTURE(strip);
+            caseOnDisk files("driftingSolid");
+            place(files, strip);
+            files.boundary = R"(
+                sides { type cyclic; point (0 0 0); separation (1 0 0); }
+                ends  { type cyclic; point (0 0 0); separation (0 1 0); })";
+            files.properties = "rho 1; mu 0.01;", files.solution = "coupling " + coupling + ";";
+            files.write();
+            setContent(files.path() + "/constant/structureProperties",
+                       "structureModel springNetwork; E 10; links radius; radius 2.1;");
+            capturedLog log;
+            Time time(files.path());
+            fsiCase c(time);
+            const auto scheme = couplingScheme::New(c);
+            for (int k = 0; k < 11; ++k)  // a tenth of the side each
+            {
+                runSteps(c, *scheme, 0.02, 5);
+                for (label i = 0; i < c.cloud.n(); ++i)
+                {
+                    const vector x = c.cloud.x[i].xyz();
+                    CHECK((c.cloud.Up[i].xyz() - drift).norm() < 1e-6);
+                    CHECK(std::abs(c.cloud.Up[i][3]) < 1e-4);
+                    // a body is never further out than half of it, and a step
+                    CHECK(std::max({-x[0], -x[1], x[0] - side, x[1] - side}) <
+                          (strip ? 0.5 * side : 4 * dx) + 0.02);
+                }
+            }
+        }
+}
