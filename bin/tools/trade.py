@@ -8,7 +8,7 @@
     trade.write()       # comparison/trade.csv with all runs, trade.dat and trade.png with the front
     variant, seconds = trade.cheapest(0.01)
 
-A run that no other is both cheaper and better than is on the front.  CPU time is the solver's ExecutionTime, interrupted
+A run that no other is both cheaper and better than is on the front; a single run is no family.  CPU time is the solver's ExecutionTime, interrupted
 parts with it.  Variants that VARIANTS does not name are left out; one without its quantity is told as such."""
 import csv
 import math
@@ -58,7 +58,7 @@ class Trade:
             if name not in self.runs:
                 particles, steps, seconds = cost(name)
                 self.runs[name] = (particles, steps, float(seconds), abs(valueOf(name, self.quantity)))
-        if rows:
+        if len(rows) > 1:
             self.families.append((title, rows))
 
     def front(self):
@@ -70,7 +70,7 @@ class Trade:
         return next(((name, seconds) for seconds, error, name in self.front() if error <= limit), (None, math.nan))
 
     def write(self, path="comparison/trade"):
-        """path.csv with all runs, path.dat and path.png; nothing if no variant of a family was to be run"""
+        """path.csv with all runs, path.dat and path.png; nothing if no two variants of a family were to be run"""
         if not self.families:
             return
         os.makedirs(os.path.dirname(path) or ".", exist_ok=True)

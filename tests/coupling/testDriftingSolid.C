@@ -62,6 +62,7 @@ TEST_CASE("a solid that drifts over cyclic planes does so unnoticed, with both c
                     const vector x = c.cloud.x[i].xyz();
                     CHECK((c.cloud.Up[i].xyz() - drift).norm() < 1e-6);
                     CHECK(std::abs(c.cloud.Up[i][3]) < 1e-4);
+                    CHECK(c.list.start[i + 1] - c.list.start[i] == 20);  // the lattice, seen whole also beyond planes
                     // a body is never further out than half of it, and a step
                     CHECK(std::max({-x[0], -x[1], x[0] - side, x[1] - side}) <
                           (strip ? 0.5 * side : 4 * dx) + 0.02);
