@@ -64,16 +64,17 @@ void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
 void openFace::setVelocity(particleCloud& cloud) const
 {
     const List<scalar>& slope = cloud.scalars.at(slopeField);
-    List<vec4>& gradient = cloud.vectors[givenGradient];
-    gradient.resize(cloud.n(), vec4{});
+    List<vec4>&velocity = cloud.vectors[givenVelocity], &gradient = cloud.vectors[givenGradient];
+    velocity.resize(cloud.n(), vec4{}), gradient.resize(cloud.n(), vec4{});
     parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
         for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
         {
             known_[i].u = cloud.Up[i].xyz();
             const surfaceFoot& f = known_[i].foot;
-            if (!f.found || f.depth <= 0) continue;
-            cloud.uFixed[i] = 1, cloud.Up[i].setXyz(inflow_->velocity(f.foot, f.normal));
+            if (!f.found) continue;
+            velocity[i] = vec4::from(inflow_->velocity(f.foot, f.normal));
             gradient[i] = vec4::from(slope[i] * f.normal);
+            if (f.depth > 0) cloud.uFixed[i] = 1, cloud.Up[i].setXyz(velocity[i].xyz());
         }
     });
     flux_ = 0;
@@ -249,7 +250,7 @@ void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, sc
             for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
             {
                 const surfaceFoot& f = known_[i].foot;
-                if (!f.found || f.depth < -dx_) continue;
+                if (!f.found || f.depth < -(inflow_ ? depth_ : dx_)) continue;
                 carried[i] = slope.at(f, cloud.zone[i]);
                 if (f.depth <= 0 || !velocity) continue;
                 vector u = cloud.Up[i].xyz();

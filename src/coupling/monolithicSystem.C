@@ -41,13 +41,13 @@ List<std::pair<label, scalar>> monolithicSystem::pressureOffsets() const
     return offsets;
 }
 
-// The share of G p in strips that C takes from the gradient given there (monolithicRows.H)
+// In strips C takes the gradient given there for G p (monolithicRows.H)
 void monolithicSystem::leaveToGiven(List<vec4>& gs) const
 {
     const particleCloud& cloud = c_.cloud;
     if (!cloud.vectors.count(givenGradient)) return;
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        if (inStrip(i)) gs[i].setXyz((1 - monolithicRows::givenShare) * gs[i].xyz());
+        if (inStrip(i)) gs[i].setXyz(vector::Zero());
 }
 
 void monolithicSystem::addGiven(List<scalar>& b) const
@@ -57,11 +57,23 @@ void monolithicSystem::addGiven(List<scalar>& b) const
     if (given == cloud.vectors.end()) return;
     gs_.assign(cloud.nAll(), vec4{});
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        if (inStrip(i)) gs_[i].setXyz(monolithicRows::givenShare * given->second[i].xyz());
+        if (inStrip(i)) gs_[i].setXyz(given->second[i].xyz());
     cloud.fillGradientGhosts(gs_);
     rows_.givenPart(gs_, cp_);
     for (label i = 0; i < cloud.n(); ++i)
         if (!cloud.pFixed[i]) b[4 * i + 3] += cloud.dx * cp_[i];
+
+    // What is given is uniform along the face's normals and has no divergence.  At the strip's end and beside walls D
+    // lacks neighbours on one side and finds one, of a parabola in a channel of 12 dx 2 % of the flow
+    const List<vec4>& velocity = cloud.vectors.at(givenVelocity);
+    const scalar tau = rows_.fluidAlone() ? dt_ / c_.rho : 0;
+    phi_.assign(cloud.nAll(), vec4{});
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        phi_[i].s = velocity[i].s + tau * given->second[i].s;
+    cloud.fillGhosts(phi_, true);
+    rows_.divergence(phi_, cp_);
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (inStrip(i)) b[4 * i + 3] += cloud.dx * cp_[i];
 }
 
 void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce,
