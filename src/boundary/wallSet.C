@@ -375,7 +375,7 @@ void wallSet::addRigid(particleCloud& cloud) const
             if (const vector at = w.frame.toSpace(w.rigid[k]); cells.near(at))
             {
                 const vector foot = w.frame.toSpace(w.footOf(k));
-                cloud.addRigid(at, w.velocity.at(w.motion.rotates() ? foot : at));
+                cloud.addRigid(at, w.velocity.at(w.motion.rotates() ? foot : at), foot);
             }
 }
 

@@ -73,9 +73,7 @@ TEST_CASE("a parabolic inlet: Poiseuille's profile and pressure drop")
                 }
             }
             CHECK(worst < 0.1 * U);
-            // measured: projection with particles 1.7 % too much, all others within 0.7 %
-            const scalar limit =
-                b.coupling == "projection" && kind == word("particles") ? 0.025 : 0.01;
+            const scalar limit = 0.01;  // measured: 0.1 to 0.4 % too much
             CHECK(flux == relative(2.4e-4, limit));
             for (int k = 0; k < slices::n; ++k) CHECK(s.velocity(k) == relative(U, limit));
             CHECK(s.pressure(2) - s.pressure(7) ==
@@ -138,7 +136,7 @@ scalar inside(const boxCase& b, const particleCloud& cloud)
 // Runs that differ by rounding come to differ altogether; none may jump.  kicks [dx]: of the start
 TEST_CASE("a flow rate that reverses ten times: the channel keeps its volume, what enters leaves")
 {
-    for (const auto& [coupling, kicks] : {std::pair("projection", 1), std::pair("monolithic", 8)})
+    for (const auto& [coupling, kicks] : {std::pair("projection", 2), std::pair("monolithic", 16)})
         for (int kick = 0; kick < kicks; ++kick)
         {
             CAPTURE(coupling);
