@@ -227,8 +227,9 @@ scalar openFace::fluxOf(const particleCloud& cloud, const velocityBefore& veloci
     const triSurface& s = mesh_.surface();
     for (label t = 0; t < s.size(); ++t)
     {
-        vector u = vector::Zero();
-        velocity.mean(s.centre(t), any, u);
+        vector u = vector::Zero(), at = s.centre(t);
+        if (cloud.nDims == 2) at[2] = 0;  // where the particles are, however thick the slice
+        velocity.mean(at, any, u);
         flux += mesh_.area(t) * u.dot(s.normal(t));
     }
     return flux;

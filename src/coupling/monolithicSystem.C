@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "monolithicSystem.H"
 
+#include <numeric>
+
 namespace ispf
 {
 
@@ -27,7 +29,9 @@ void monolithicSystem::setup(scalar dt, const volumeConstraint* volume, const so
                 dt * (cloud.uFixed[i] ? meanTangent : K->diagonal[i].trace() / cloud.nDims);
         tau_[i] = cloud.volume() / diagonal_[i];
     }
-    rows_.setTau(tau_, dt / c_.rho);
+    fluidTau_ = std::accumulate(tau_.begin() + cloud.nSolid(), tau_.end(), scalar(0)) /
+                scalar(cloud.n() - cloud.nSolid());
+    rows_.setTau(tau_, fluidTau_);
     enclosed_.setup(rows_, surface);
 }
 
@@ -66,7 +70,7 @@ void monolithicSystem::addGiven(List<scalar>& b) const
     // What is given is uniform along the face's normals and has no divergence.  At the strip's end and beside walls D
     // lacks neighbours on one side and finds one, of a parabola in a channel of 12 dx 2 % of the flow
     const List<vec4>& velocity = cloud.vectors.at(givenVelocity);
-    const scalar tau = rows_.fluidAlone() ? dt_ / c_.rho : 0;
+    const scalar tau = rows_.fluidAlone() ? fluidTau_ : 0;
     phi_.assign(cloud.nAll(), vec4{});
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
         phi_[i].s = velocity[i].s + tau * given->second[i].s;
