@@ -47,7 +47,18 @@ broken 0 "0 FAIL" "echo 'rest quick system/controlDict endTime 2; system/control
 validate=$scratch/tree/bin/ispfValidate results=$scratch/tree/validation
 "$validate" -tier quick > "$scratch/out" 2>&1
 grep -q "has ended before" "$scratch/out" || fail "run again: $(cat "$scratch/out")"
-cp "$results/summary.csv" "$scratch/once.csv"; rm -r "$results"
+cp "$results/summary.csv" "$scratch/once.csv"
+# nor does it count as judged if its comparison is no longer there
+for gone in comparison/summary.csv ""; do
+    rm -r "$results/ispfFsiFoam/hydrostaticBox/rest/$gone"
+    "$validate" -tier quick > "$scratch/out" 2>&1 && grep -q "4 quantities of 1 runs, 0 FAIL" "$scratch/out" ||
+        fail "without rest/$gone: $(cat "$scratch/out")"
+    diff <(cut -d, -f 1-11 "$scratch/once.csv") <(cut -d, -f 1-11 "$results/summary.csv") || fail "without rest/$gone the summary differs"
+done
+sed -i 1q "$results/ispfFsiFoam/hydrostaticBox/rest/comparison/summary.csv"
+"$validate" -tier quick > "$scratch/out" 2>&1 && fail "nothing was compared, and the status is 0"
+grep -q "nothing was compared" "$results/report.md" || fail "nothing was compared: $(cat "$scratch/out")"
+rm -r "$results"
 setsid "$validate" -tier quick > /dev/null 2>&1 & run=$!
 log=$results/ispfFsiFoam/hydrostaticBox/rest/log.ispfFsiFoam
 until grep -qs '^Time = 0.5' "$log" || ! kill -0 $run 2> /dev/null; do sleep 0.02; done

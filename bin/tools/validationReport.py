@@ -24,7 +24,10 @@ def cost(case):
                     if line.startswith("Time = "):
                         steps += 1
                     elif line.startswith("ExecutionTime = "):
-                        last = float(line.split()[2])
+                        now = float(line.split()[2])
+                        if now < last:  # another run has begun in the same log
+                            seconds += last
+                        last = now
                     elif (found := re.match(r"particles: (\d+) \(", line)) and not particles:
                         particles = found[1]
             seconds += last
@@ -55,6 +58,8 @@ def gather(folder, tutorial, variant, tier):
             for row in csv.DictReader(file):
                 kept = [row[k] for k in COLUMNS[1:8]]
                 rows.append(([name] + kept + [row.get("tier") or tier] + paid, row["reason"]))
+    if not rows and variant != "study":
+        rows.append(([name, "the run", "", "nan", "", "", "", "FAIL", tier] + paid, "nothing was compared"))
     return rows
 
 
