@@ -48,9 +48,12 @@ def compare():
 
     line = table(f"postProcessing/depth/{instants('postProcessing/depth')[-1]}/line.dat")  # distance, position, p
     line = [row for row in line if not math.isnan(row[4])]
+    if not line:
+        sys.exit("functions.depth of system/controlDict: no point of the line lies in the fluid")
     hydrostatic = [rho * dot(row[1:4], g) for row in line]
     level = faces[0][0] if faces else sum(row[4] - p for row, p in zip(line, hydrostatic)) / len(line)
     worst = max(abs(row[4] - p - level) for row, p in zip(line, hydrostatic))
+    between = rows[-1][13] - rows[-1][9] - rho * (dot(rows[-1][14:17], g) - dot(rows[-1][10:13], g))
     with open("comparison/depth.dat", "w", encoding="utf-8") as out:
         out.writelines(f"{row[0]} {row[4]} {p + level}\n" for row, p in zip(line, hydrostatic))
 
@@ -59,6 +62,8 @@ def compare():
     report.below("largest speed at the end over sqrt(g H)", rows[-1][5] / fast, limit, reason)
     report.below("largest error of p over rho g H", worst / (rho * size * depth), 1e-6,
                  "gravity is carried exactly; what is left is what the solvers' tolerance leaves")
+    report.below("the same of the difference between least and largest p", between / (rho * size * depth), 1e-6,
+                 "in all directions of g, not along the line alone")
     report.note("largest speed at any time over sqrt(g H)", max(row[5] for row in rows) / fast,
                 "p comes from zero in the first step, to the solver's tolerance")
     report.note("steps", len(rows) - 1, "")

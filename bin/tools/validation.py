@@ -242,7 +242,8 @@ class Report:
         self._add(quantity, reference, value, unit, math.nan, math.nan, "told", reason)
 
     def _add(self, quantity, reference, value, unit, error, tolerance, status, reason):
-        status = self.without or status
+        if self.without:  # no tolerance that it could be outside of
+            tolerance, status = math.nan, self.without
         self.rows.append([quantity, reference, value, unit, error, tolerance, status, reason])
 
     def write(self):

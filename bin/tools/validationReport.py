@@ -97,6 +97,19 @@ def pictures(folder, tutorial, variant):
     return [os.path.relpath(path, folder) for path in compared(case, variant, ".png")]
 
 
+def tables(folder, tutorial):
+    """Of a study, beside its summary"""
+    text = []
+    for path in compared(os.path.join(folder, tutorial), "study", ".csv"):
+        if os.path.basename(path) == "summary.csv":
+            continue
+        with open(path, newline="", encoding="utf-8") as file:
+            head, *rows = csv.reader(file)
+        text += ["", f"`{os.path.relpath(path, folder)}`", "", "| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
+        text += ["| " + " | ".join(row) + " |" for row in rows]
+    return text
+
+
 def main(folder, root):
     plan = [line.split(None, 3)[:3] for line in sys.stdin if line.strip()]
     order = []
@@ -119,6 +132,8 @@ def main(folder, root):
             f"{len(rows)} quantities of {len(plan)} runs, {failed} FAIL. `summary.csv` has them in one table.", ""]
     tutorial = None
     for (this, variant, tier), found in gathered:
+        if variant == "study" and not found and not pictures(folder, this, variant):
+            continue  # too few variants to show anything
         if this != tutorial:
             tutorial = this
             title = lines(os.path.join(root, "tutorials", tutorial, "README.md"))
@@ -129,6 +144,8 @@ def main(folder, root):
         text += ["| " + " | ".join(row[1:8] + [reason]) + " |" for row, reason in found]
         if found and found[0][0][9]:
             text += ["", "{} particles, {} steps, {} s of CPU time.".format(*found[0][0][9:])]
+        if variant == "study":
+            text += tables(folder, tutorial)
         text += [""] + [f"![{variant}]({picture})" for picture in pictures(folder, tutorial, variant)]
     text += expectations(gathered)
     with open(os.path.join(folder, "report.md"), "w", encoding="utf-8") as file:
