@@ -13,7 +13,10 @@ TEST_CASE("momentum of a turning block that moves: linear, angular, centre")
     const vector centre = box.dx * vector(3, 2, 1.5), drift(2, -1, 0.5), omega(3, 5, -7);
     for (size_t i = 0; i < box.particles.x.size(); ++i)
         box.particles.vectors["U"][i] = drift + omega.cross(box.particles.x[i] - centre);
-    box.functions = "motion { type momentum; writePrecision 12; }";
+    box.addBlock("oil", box.dx * vector(6, 0, 0), {2, 4, 3});  // at rest
+    box.functions =
+        "motion { type momentum; zones (water); writePrecision 12; }"
+        "all { type momentum; writePrecision 12; }";
     const auto running = box.start();
     functionObjectList list(*running.c);
     list.start();
@@ -32,4 +35,7 @@ TEST_CASE("momentum of a turning block that moves: linear, angular, centre")
         CHECK(row[4 + d] == doctest::Approx(angular[d]).epsilon(1e-9));
         CHECK(row[7 + d] == doctest::Approx(centre[d]).epsilon(1e-10));
     }
+    const List<scalar> both = box.rows("all/0/momentum.dat").at(0);
+    CHECK(both[1] == doctest::Approx(mass * drift[0]).epsilon(1e-10));
+    CHECK(both[7] == doctest::Approx(4 * box.dx).epsilon(1e-10));  // 8 cells along x
 }

@@ -40,8 +40,9 @@ TEST_CASE("by the speed against the mean, shifting is the same for every observe
     const List<vec4> still = shifted(given, "mean", vector::Zero());
     CHECK(difference(still, shifted(given, "mean", drift)) < 1e-14);
     CHECK(difference(still, shifted(given + "frame mean;", "still", drift)) < 1e-14);
-    CHECK(difference(shifted(given, "still", vector::Zero()), shifted(given, "still", drift)) >
-          1e-3);
+    const List<vec4> byAll = shifted(given, "still", vector::Zero());
+    CHECK(difference(still, byAll) < 3e-4);  // the flow's own mean is nearly zero
+    CHECK(difference(byAll, shifted(given, "still", drift)) > 1e-3);
     CHECK(difference(shifted(given + "frame still;", "mean", drift),
                      shifted(given, "still", drift)) == 0);
 }
