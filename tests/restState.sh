@@ -26,8 +26,9 @@ refusedRest() { # what, entry, words
     for words in "${@:4}"; do grep -q "$words" out || fail "$1: no '$words': $(tail -n 8 out)"; done
     mv kept $dict
 }
-refusedRest "a rest state twice as large" wall.rest '("2*x" y 0)' "incompressible" "particleDict"
-refusedRest "a rest state that is not symmetric" wall.rest '("x + 1e-3" y 0)' "symmetry plane" "particleDict"
+refusedRest "a rest state 3 % larger" wall.rest '("1.03*x" y 0)' "incompressible" "particleDict"
+refusedRest "a rest state 3 % smaller" wall.rest '("0.97*x" y 0)' "incompressible" "particleDict"
+refusedRest "a rest state that is not symmetric" wall.rest '("x + 2e-6" y 0)' "symmetry plane" "particleDict"
 refusedRest "two formulas" wall.rest '("x" y)' "three formulas"
 refusedRest "a rest state out of the plane" wall.rest '(x y 1e-3)' "must not point along z"
 refusedRest "a fluid's rest state" lumen.rest '(x y 0)' "Only what is solid"

@@ -7,7 +7,7 @@ set -uo pipefail
 
 python3 - <<'EOF' || fail "the law: see above"
 import sys
-from math import isclose, log
+from math import cos, hypot, isclose, log, pi, sin
 import springNetwork as law
 
 failures = 0
@@ -28,6 +28,14 @@ for a in (0.9, 1.25, 1.5):    # neo-Hooke in closed form
     la, lb = a / A, law.outerRadius(a, A, B, 3) / B
     check("sphere", law.pressure(a, A, B, 3, law.neoHookeSlope),
           0.5 * (lb**-4 + 4 / lb - la**-4 - 4 / la), 1e-4)
+def energy(l, m, n=2000):     # 4 G <(|F n| - 1)^2> of directions in the plane, 15/2 G in space; G = 1
+    if m == 2:
+        return 4 * sum((hypot(l * cos(t), sin(t) / l) - 1)**2 for t in (pi * (k + 0.5) / n for k in range(n))) / n
+    rings = [pi / 2 * (k + 0.5) / n for k in range(n)]  # each as wide as its sine
+    return 7.5 * sum(sin(t) * (hypot(l * sin(t), cos(t) / l**2) - 1)**2 for t in rings) * pi / 2 / n
+for l in (0.8, 1.3):          # far from rest
+    for m in (2, 3):
+        check(f"slope m={m}", law.networkSlope(l, m), (energy(l + 1e-4, m) - energy(l - 1e-4, m)) / 2e-4, 1e-4)
 # known: K/dx and 1 for 18 links of the cubic lattice, E/3 = K/dx; the square lattice's 8 links K/2
 check("lattice18", law.isotropicShear(law.ruleLinks("lattice18", 3), 3), 1.0, 1e-12)
 check("lattice8", law.isotropicShear(law.ruleLinks("lattice8", 2), 2), 0.5, 1e-12)
@@ -43,5 +51,9 @@ for rule in "lattice8;" "radius; radius 1.5;"; do
     theirs=$(sed -n 's/.*, G \([0-9.e+]*\) Pa, E = .*/\1/p' log | head -n 1)
     ours=$(python3 "$ispfRoot/bin/tools/springNetwork.py" | sed -n 's/^shear modulus \(.*\) Pa$/\1/p')
     awk -v a="$theirs" -v b="$ours" 'BEGIN { exit !(a > 0 && (a/b - 1)^2 < 1e-4) }' || fail "links $rule G $ours, calibrateSprings $theirs"
+done
+for modulus in "G 1e4" "E 3e4"; do
+    echo "structureModel springNetwork; $modulus; links lattice8;" > constant/structureProperties
+    ours=$(python3 "$ispfRoot/bin/tools/springNetwork.py") && [[ $ours = "shear modulus 10000 Pa"* ]] || fail "$modulus: $ours"
 done
 [ $failures = 0 ]
