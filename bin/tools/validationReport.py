@@ -10,6 +10,8 @@ import sys
 COLUMNS = ["case", "quantity", "reference", "value", "unit", "error", "tolerance", "status", "tier", "particles", "steps",
            "cpuSeconds"]
 
+COLUMNS_SHOWN = 6  # errors in a table of what to expect, which is to fit on a page
+
 
 def cost(case):
     """Particles, steps and CPU seconds of the solver's logs, those of interrupted runs with them"""
@@ -70,18 +72,25 @@ def compared(case, variant, ending):
 
 
 def expectations(gathered):
-    """What to expect: for each tutorial, particles and CPU time of its variants beside every error that several of
-    them have, the cheapest first"""
+    """What to expect: for each tutorial, particles and CPU time of its variants, the cheapest first, beside the errors that
+    several of them have; of many those that come closest to their tolerances"""
     text = ["", "# What to expect", "",
-            "Errors as in the tables above, by what they cost. One thread's CPU time, of this machine."]
+            "Errors as in the tables above, by what they cost: CPU time of this machine, of all threads of a run together."]
     families = {}
     for (tutorial, variant, _), found in gathered:
-        if variant != "study" and found:
+        if variant != "study" and found and found[0][0][9]:
             families.setdefault(tutorial, []).append((variant, [row for row, _ in found]))
     for tutorial, variants in families.items():
         variants.sort(key=lambda v: float(v[1][0][11] or 0))
-        judged = [row[1] for _, rows in variants for row in rows if row[5] not in ("", "nan")]
-        shown = [q for q in dict.fromkeys(judged) if judged.count(q) > 1 or len(variants) == 1]
+        judged = [row for _, rows in variants for row in rows if row[5] not in ("", "nan")]
+        names = [row[1] for row in judged]
+        close = {}  # largest error over tolerance
+        for row in judged:
+            if row[6] not in ("", "0"):
+                close[row[1]] = max(close.get(row[1], 0.0), abs(float(row[5])) / float(row[6]))
+        several = [q for q in close if names.count(q) > 1 or len(variants) == 1]
+        closest = sorted(several, key=close.get)[-COLUMNS_SHOWN:]
+        shown = [q for q in several if q in closest]
         if not shown:
             continue
         text += ["", f"**{tutorial.split('/')[-1]}**", "",
