@@ -26,6 +26,22 @@ for options in "-dx 0.6" "-variant C" "-bore 9" "-variant A -bore 10" "-kernel g
     grep -q "valid\|is not a" "$scratch/out" || fail "Allrun $options: no reason"
 done
 
+# A run that was stopped goes on, one that has reached its end does not: a solver that only says that it was asked
+root=$(cd ../../.. && pwd) case=$scratch/case bin=$scratch/bin
+cp -r . "$case" && mkdir "$bin" && ln -s "$(cd "${ISPF_BIN:-$root/build/${OPT:-Release}/bin}" && pwd)"/* "$bin"/ && rm "$bin/ispfFsiFoam"
+printf '#!/bin/sh\ntouch asked; exit 1\n' > "$bin/ispfFsiFoam" && chmod +x "$bin/ispfFsiFoam"
+again() { (cd "$case" && ISPF_DIR=$root ISPF_BIN=$bin ./Allrun "$@" > "$scratch/out" 2>&1); }
+again -prepare || fail "-prepare: $(cat "$scratch/out")"
+run=$case/run/dx0.67-B-trapezoid
+mkdir -p "$run/0" && touch "$run/0/particles.hdf" && echo "Particles OK" > "$run/log.checkParticles"
+for reached in 5.23 10.476; do
+    rm -f "$run/asked"
+    printf 'Create time\n\ndeltaT = 0.01\nTime = %s\n\nEnd\n' $reached > "$run/log.ispfFsiFoam"
+    again
+    [ -e "$run/asked" ] && on=yes || on=no
+    [ $on = "$([ $reached = 10.476 ] && echo no || echo yes)" ] || fail "stopped at $reached s, goes on: $on: $(cat "$scratch/out")"
+done
+
 # Restarts: what a later start repeats is replaced
 printf '# x\n# Time\tdiameter\tdDoverD\n0\t20\t0\n1\t21\t5\n2\t99\t99\n' > "$scratch/0.dat"
 printf '# Time\tdDoverD\tdiameter\n2\t10\t22\n3\t15\t23\n' > "$scratch/2.dat"
