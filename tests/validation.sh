@@ -26,7 +26,7 @@ broken() { # status pattern-of-what-is-said command that changes the tutorial [o
     [ $? = "$1" ] || fail "status is not $1: $3: $(cat "$scratch/out")"
     grep -qE -- "$2" "$scratch/out" || fail "'$2' is not said: $(cat "$scratch/out")"
 }
-broken 0 "4 quantities of 1 runs, 0 FAIL" ""
+broken 0 "5 quantities of 1 runs, 0 FAIL" ""
 broken 1 "largest speed.*FAIL" "sed -i 's/1e-6 if/0 if/' $hydrostatics"
 broken 1 "largest error of p.*FAIL" "sed -i 's/rho \* dot(row/1.01 * &/' $hydrostatics"
 broken 1 "largest speed.*nan .*FAIL" "sed -i 's|rows\[-1\]\[5\] /|math.nan /|' $hydrostatics"
@@ -51,7 +51,7 @@ cp "$results/summary.csv" "$scratch/once.csv"
 # nor does it count as judged if its comparison is no longer there
 for gone in comparison/summary.csv ""; do
     rm -r "$results/ispfFsiFoam/hydrostaticBox/rest/$gone"
-    "$validate" -tier quick > "$scratch/out" 2>&1 && grep -q "4 quantities of 1 runs, 0 FAIL" "$scratch/out" ||
+    "$validate" -tier quick > "$scratch/out" 2>&1 && grep -q "5 quantities of 1 runs, 0 FAIL" "$scratch/out" ||
         fail "without rest/$gone: $(cat "$scratch/out")"
     diff <(cut -d, -f 1-11 "$scratch/once.csv") <(cut -d, -f 1-11 "$results/summary.csv") || fail "without rest/$gone the summary differs"
 done
@@ -59,12 +59,19 @@ sed -i 1q "$results/ispfFsiFoam/hydrostaticBox/rest/comparison/summary.csv"
 "$validate" -tier quick > "$scratch/out" 2>&1 && fail "nothing was compared, and the status is 0"
 grep -q "nothing was compared" "$results/report.md" || fail "nothing was compared: $(cat "$scratch/out")"
 rm -r "$results"
-setsid "$validate" -tier quick > /dev/null 2>&1 & run=$!
-log=$results/ispfFsiFoam/hydrostaticBox/rest/log.ispfFsiFoam
-until grep -qs '^Time = 0.5' "$log" || ! kill -0 $run 2> /dev/null; do sleep 0.02; done
-kill -TERM -- -$run; wait $run 2> /dev/null && fail "an interrupted validation ends with 0"
-until tail -n 4 "$log" | grep -q "SIGTERM"; do sleep 0.1; done
+interrupted() { # log time: a validation that is stopped when its solver has come so far [options]
+    setsid "$validate" -tier quick "${@:3}" > /dev/null 2>&1 & local run=$!
+    until grep -qs "^Time = $2" "$1" || ! kill -0 $run 2> /dev/null; do sleep 0.02; done
+    kill -TERM -- -$run; wait $run 2> /dev/null && fail "an interrupted validation ends with 0"
+    until tail -n 4 "$1" | grep -q "SIGTERM"; do sleep 0.1; done
+}
+interrupted "$results/ispfFsiFoam/hydrostaticBox/rest/log.ispfFsiFoam" 0.5
 "$validate" -tier quick > "$scratch/out" 2>&1 || fail "goes on: $(cat "$scratch/out")"
 grep -q "rest: goes on" "$scratch/out" || fail "begins anew: $(cat "$scratch/out")"
 diff <(cut -d, -f 1-11 "$scratch/once.csv") <(cut -d, -f 1-11 "$results/summary.csv") || fail "interrupted, the summary differs"
+# in a folder that the tutorial itself has made, too
+validate=$ispfRoot/bin/ispfValidate
+interrupted "$scratch/own/ispfFsiFoam/invariance/allAtOnce/plain/log.ispfFsiFoam" 0.1 -folder "$scratch/own" invariance
+"$validate" -tier quick -folder "$scratch/own" invariance > "$scratch/out" 2>&1 || fail "goes on in its own folder: $(cat "$scratch/out")"
+grep -q "allAtOnce: goes on" "$scratch/out" || fail "begins anew in its own folder: $(cat "$scratch/out")"
 [ $failures = 0 ]
