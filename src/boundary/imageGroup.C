@@ -296,7 +296,7 @@ struct imageMaker
             productRule[rule] = cloud.addRule(turn(map.R) * inner.M, map.R * inner.R);
         }
         b[3] += p;
-        cloud.addMirror({cloud.ghostSource(e), productRule[rule]}, at, b,
+        cloud.addMirror({cloud.ghostSource(e), productRule[rule], cloud.ghostVolume(e)}, at, b,
                         map.R * cloud.ghostThrough(e));
     }
 };

@@ -12,6 +12,8 @@ namespace
 
 constexpr scalar parallel =
     0.75;  // cosine between normals of one part, and of no corner: 41 degrees
+// Particles that far before a wall are few, and their images too
+constexpr scalar mostStretch = 2;
 
 // Part of each triangle: connected through edges that are not sharp
 List<label> smoothParts(const triSurface& s, bool twoSided)
@@ -43,6 +45,25 @@ List<label> smoothParts(const triSurface& s, bool twoSided)
         ++nParts;
     }
     return part;
+}
+
+// Volume of the image of what lies at x over its own.  The surface parallel to the wall through x has the curvature
+// kappa/(1 - kappa d) = 2 s/(a^2 - s^2), s the mean approach to the wall a to both sides of x: exact for balls and
+// cylinders.  Along any two directions at right angles their product is right to the second order of kappa d
+scalar imageVolume(const patchSurface& surface, const vector& x, const surfaceFoot& f, int nDims,
+                   scalar a)
+{
+    const scalar d = -f.depth;
+    const auto stretch = [&](const vector& t) {
+        const surfaceFoot one = surface.find(x + a * t), other = surface.find(x - a * t);
+        if (!one.found || !other.found) return 1.0;
+        const scalar s = 0.5 * (one.depth + other.depth) + d;
+        const scalar curvature = 2 * s / std::max(a * a - s * s, 1e-9 * a * a);
+        return std::clamp(1 + 2 * d * curvature, 0.0, mostStretch);
+    };
+    if (nDims == 2) return stretch({-f.normal[1], f.normal[0], 0});
+    const vector t = f.normal.unitOrthogonal();
+    return stretch(t) * stretch(f.normal.cross(t));
 }
 
 // Shortest way to all planes at once, and the projector onto the directions it can have
@@ -111,8 +132,10 @@ List<wallMirror::foot> wallMirror::feet(const particleCloud& cloud, const wallSe
         // as through the edge of a thick wall fluid sees fluid
         if (beside && !(body.twoSided && f.aside < support_)) continue;
         const wall& w = walls.walls()[body.walls[f.patch]];
+        const scalar volume =
+            surface.mesh() ? imageVolume(surface, x, f, cloud.nDims, cloud.dx) : 1;
         found.push_back({p, frame.turn(f.normal), w.velocity.at(frame.toSpace(f.foot)), -f.depth,
-                         beside, w.slip});
+                         volume, beside, w.slip});
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const foot& a, const foot& b) { return a.distance < b.distance; });
@@ -155,8 +178,10 @@ private:
         wayToPlanes way, through;
         vector direction = vector::Zero(), velocity = vector::Zero();
         bool rigid = true;
+        scalar volume = 1;
         for (const foot& f : members)
         {
+            volume *= f.volume;
             way.add(f.normal, f.distance);
             through.add(f.normal, f.normal.dot(f.wallVelocity));
             direction += f.normal, velocity += f.wallVelocity / scalar(members.size());
@@ -169,7 +194,8 @@ private:
         {
             const tensor A = velocityMap(members);
             const label rule = ruleFor(members, way.P, A);
-            cloud_.addMirror({i, rule}, at, vec4::from(velocity - A * velocity), 2 * through.s);
+            cloud_.addMirror({i, rule, volume}, at, vec4::from(velocity - A * velocity),
+                             2 * through.s);
         }
         facing_.push_back(cloud_.beyondOpen(i) ? vector(vector::Zero()) : direction.normalized());
     }

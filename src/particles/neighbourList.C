@@ -134,7 +134,8 @@ struct rowBuilder
         const auto add = [&](const List<label>& j, const List<scalar>& r2) {
             F.resize(j.size());
             kernel.F(r2.data(), F.data(), label(j.size()));
-            for (scalar& f : F) f *= cloud.volume();
+            for (size_t k = 0; k < j.size(); ++k)
+                F[k] *= cloud.volume() * (j[k] < cloud.n() ? 1 : cloud.ghostVolume(j[k]));
             part.index.insert(part.index.end(), j.begin(), j.end());
             part.F.insert(part.F.end(), F.begin(), F.end());
         };

@@ -93,6 +93,7 @@ void particleCloud::clearGhosts()
 {
     x.resize(n_), Up.resize(n_), phase.resize(n_);
     source_.clear(), rule_.clear(), offset_.clear(), through_.clear(), depth_.clear();
+    volume_.clear();
     rules_.clear();
 }
 
@@ -107,14 +108,14 @@ void particleCloud::addImage(label source, label rule, const vector& position, c
     x.push_back(vec4::from(position)), Up.push_back(vec4{});
     phase.push_back(phase[source]);
     source_.push_back(source), rule_.push_back(rule), offset_.push_back(b);
-    through_.push_back(vector::Zero()), depth_.push_back(vec4{});
+    through_.push_back(vector::Zero()), depth_.push_back(vec4{}), volume_.push_back(1);
 }
 
 void particleCloud::addMirror(const imageSource& source, const vector& position, const vec4& b,
                               const vector& through)
 {
     addImage(source.particle, source.rule, position, b);
-    through_.back() = through;
+    through_.back() = through, volume_.back() = source.volume;
 }
 
 void particleCloud::addRigid(const vector& position, const vector& velocity)
@@ -122,7 +123,7 @@ void particleCloud::addRigid(const vector& position, const vector& velocity)
     x.push_back(vec4::from(position)), Up.push_back(vec4::from(velocity));
     phase.push_back(phaseType::rigid);
     source_.push_back(-1), rule_.push_back(0), offset_.push_back(vec4::from(velocity));
-    through_.push_back(vector::Zero()), depth_.push_back(vec4{});
+    through_.push_back(vector::Zero()), depth_.push_back(vec4{}), volume_.push_back(1);
 }
 
 void particleCloud::addRigid(const vector& position, const vector& velocity, const vector& foot)
