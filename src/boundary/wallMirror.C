@@ -12,7 +12,7 @@ namespace
 
 constexpr scalar parallel =
     0.75;  // cosine between normals of one part, and of no corner: 41 degrees
-// Particles that far before a wall are few, and their images too
+// Where particles would be stretched more they are few, next to the centre of curvature
 constexpr scalar mostStretch = 2;
 
 // Part of each triangle: connected through edges that are not sharp
@@ -47,23 +47,32 @@ List<label> smoothParts(const triSurface& s, bool twoSided)
     return part;
 }
 
-// Volume of the image of what lies at x over its own.  The surface parallel to the wall through x has the curvature
-// kappa/(1 - kappa d) = 2 s/(a^2 - s^2), s the mean approach to the wall a to both sides of x: exact for balls and
-// cylinders.  Along any two directions at right angles their product is right to the second order of kappa d
-scalar imageVolume(const patchSurface& surface, const vector& x, const surfaceFoot& f, int nDims,
-                   scalar a)
+// Volume of the image of what lies d before a wall over its own: the product of (1 + kappa d)/(1 - kappa d) over the
+// principal curvatures, positive where the wall bends around the fluid.  Across t, kappa is taken from the surface a
+// before the wall, whose curvature kappa/(1 - kappa a) is 2 s/(a^2 - s^2), s the approach to the wall on the way a t:
+// exact for balls.  Three directions 120 degrees apart give the mean curvature H and half the difference D
+scalar imageVolume(const patchSurface& surface, const surfaceFoot& f, int nDims, scalar a)
 {
-    const scalar d = -f.depth;
-    const auto stretch = [&](const vector& t) {
-        const surfaceFoot one = surface.find(x + a * t), other = surface.find(x - a * t);
-        if (!one.found || !other.found) return 1.0;
-        const scalar s = 0.5 * (one.depth + other.depth) + d;
-        const scalar curvature = 2 * s / std::max(a * a - s * s, 1e-9 * a * a);
-        return std::clamp(1 + 2 * d * curvature, 0.0, mostStretch);
+    const vector y = f.foot - a * f.normal;
+    const auto curvature = [&](const vector& t) {
+        const surfaceFoot beside = surface.find(y + a * t);
+        if (!beside.found) return 0.0;
+        const scalar s = beside.depth + a;
+        return 2 * s / std::max(a * a - s * s + 2 * a * s, 1e-9 * a * a);
     };
-    if (nDims == 2) return stretch({-f.normal[1], f.normal[0], 0});
-    const vector t = f.normal.unitOrthogonal();
-    return stretch(t) * stretch(f.normal.cross(t));
+    const auto stretch = [&](scalar kappa) {
+        const scalar kd = -kappa * f.depth;
+        return kd < 1 ? std::clamp((1 + kd) / (1 - kd), 0.0, mostStretch) : mostStretch;
+    };
+    if (nDims == 2)
+    {
+        const vector t(-f.normal[1], f.normal[0], 0);
+        return stretch(0.5 * (curvature(t) + curvature(-t)));
+    }
+    const vector t = f.normal.unitOrthogonal(), across = std::sqrt(0.75) * f.normal.cross(t);
+    const vector kappa(curvature(t), curvature(across - 0.5 * t), curvature(-across - 0.5 * t));
+    const scalar H = kappa.mean(), D = std::sqrt(2.0 / 3 * (kappa.array() - H).square().sum());
+    return stretch(H + D) * stretch(H - D);
 }
 
 // Shortest way to all planes at once, and the projector onto the directions it can have
@@ -132,8 +141,9 @@ List<wallMirror::foot> wallMirror::feet(const particleCloud& cloud, const wallSe
         // as through the edge of a thick wall fluid sees fluid
         if (beside && !(body.twoSided && f.aside < support_)) continue;
         const wall& w = walls.walls()[body.walls[f.patch]];
-        const scalar volume =
-            surface.mesh() ? imageVolume(surface, x, f, cloud.nDims, cloud.dx) : 1;
+        // what lies deeper is seen at the edge of the support alone
+        const bool bent = surface.mesh() && -f.depth < 0.75 * support_;
+        const scalar volume = bent ? imageVolume(surface, f, cloud.nDims, cloud.dx) : 1;
         found.push_back({p, frame.turn(f.normal), w.velocity.at(frame.toSpace(f.foot)), -f.depth,
                          volume, beside, w.slip});
     }
