@@ -49,3 +49,39 @@ TEST_CASE("behind an edge that sticks out every place is filled once for each pa
     }
     CHECK(checked == 27);
 }
+
+// What lies d before a ball is stretched to the image by ((R + d)/(R - d))^2 within it, (R - d)/(R + d) around it
+TEST_CASE("images of curved walls have the volume of the space they fill")
+{
+    constexpr scalar R = 6;
+    for (const bool inside : {true, false})
+    {
+        folder files;
+        files.surface(
+            "wall", parametric(
+                        [](scalar s, scalar t) {
+                            return vector(R * std::sin(M_PI * t) * std::cos(2 * M_PI * s),
+                                          R * std::sin(M_PI * t) * std::sin(2 * M_PI * s),
+                                          R * std::cos(M_PI * t));
+                        },
+                        96, 48, [=](const vector& x) -> vector { return (inside ? 1 : -1) * x; }));
+        List<vector> points;
+        for (const scalar d : {0.2, 0.7, 1.2, 1.7})
+            for (int k = 0; k < 10; ++k)
+                points.push_back(
+                    (inside ? R - d : R + d) *
+                    vector(std::cos(k), std::sin(k), std::sin(3 * k + 0.1)).normalized());
+        particleCloud cloud = fluid(points, dx);
+        const boundary walls(files.path,
+                             dictionary::fromString("wall { type wall; representation mirror; }"),
+                             cloud, support);
+        walls.updateGhosts(cloud);
+        CHECK(cloud.nGhosts() == label(points.size()));
+        for (label g = cloud.n(); g < cloud.nAll(); ++g)
+        {
+            const scalar ratio =
+                cloud.x[g].xyz().norm() / cloud.x[cloud.ghostSource(g)].xyz().norm();
+            CHECK(cloud.ghostVolume(g) == doctest::Approx(ratio * ratio).epsilon(0.1));
+        }
+    }
+}
