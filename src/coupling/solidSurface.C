@@ -61,43 +61,6 @@ scalar divergence(const particleCloud& cloud, const neighbourList& list, const L
     return (slope * moment.inverse()).trace();
 }
 
-// Depth below a plane from the fraction of the kernel beyond it,
-//
-//     int_d^H W 2 pi r (r - d) dr in 3D,   int_d^H W 2 r acos(d/r) dr in 2D
-class depthTable
-{
-public:
-    depthTable(const smoothingKernel& kernel, int nDims) : H_(kernel.support())
-    {
-        constexpr int nPoints = 200;
-        for (int k = 0; k <= nDepths; ++k)
-        {
-            const scalar d = H_ * k / nDepths, dr = (H_ - d) / nPoints;
-            scalar sum = 0;
-            for (int q = 0; q < nPoints; ++q)
-            {
-                const scalar r = d + (q + 0.5) * dr;
-                const scalar cap = nDims == 3 ? 2 * M_PI * r * (r - d) : 2 * r * std::acos(d / r);
-                sum += kernel.W(r) * cap * dr;
-            }
-            beyond_[k] = sum;
-        }
-    }
-    scalar depth(scalar fraction) const
-    {
-        if (fraction >= beyond_[0]) return 0;
-        int k = 1;
-        while (k < nDepths && beyond_[k] > fraction) ++k;
-        const scalar part = (beyond_[k - 1] - fraction) / (beyond_[k - 1] - beyond_[k]);
-        return H_ * (k - 1 + std::min(part, scalar(1))) / nDepths;
-    }
-
-private:
-    static constexpr int nDepths = 64;
-    scalar H_;
-    scalar beyond_[nDepths + 1];
-};
-
 // 2 sum g.n x_ij.n over the half of the kernel on the side of n: 1 but for the particles' arrangement.  The
 // other half may end in a void
 scalar momentAhead(const particleCloud& cloud, const neighbourList& list, label i, const vector& n)
@@ -111,19 +74,34 @@ scalar momentAhead(const particleCloud& cloud, const neighbourList& list, label 
     return sum;
 }
 
-// The two fluid zones that weigh most about solid particle i: V sum grad W [m^nDims-1] and V sum W of each
+// Particles per dx^nDims about i, as its kernel counts them: on the side of n twice, on the other, which may end in
+// a void, not at all, and linear between them.  1 on a lattice
+scalar densityAhead(const particleCloud& cloud, const neighbourList& list,
+                    const smoothingKernel& kernel, label i, const vector& n)
+{
+    scalar sum = kernel.W(0);
+    for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
+    {
+        const vector x = cloud.x[list.index[k]].xyz() - cloud.x[i].xyz();
+        const scalar side = std::clamp(2 * x.dot(n) / cloud.dx, scalar(-1), scalar(1));
+        sum += (1 + side) * kernel.W(x.norm());
+    }
+    return cloud.volume() * sum / kernel.latticeSum(cloud.dx);
+}
+
+// The two fluid zones that weigh most about solid particle i: V sum grad W [m^nDims-1] of each, and half the mean way
+// along it to the neighbours
 struct sideSums
 {
     label zone[2] = {-1, -1};
-    vector area[2];
-    scalar fraction[2];
+    vector area[2], way[2];
 
     sideSums(const particleCloud& cloud, const neighbourList& list, const smoothingKernel& kernel,
              label i)
     {
         const scalar V = cloud.volume(), least = 1e-3 * V / cloud.dx;  // below it is out of sight
         List<vector> areas(cloud.zones.size(), vector::Zero());
-        List<scalar> fractions(cloud.zones.size(), 0);
+        List<tensor> moments(cloud.zones.size(), tensor::Zero());
         for (std::int64_t k = list.mid[i]; k < list.start[i + 1]; ++k)
         {
             const label j = list.index[k];
@@ -131,7 +109,7 @@ struct sideSums
             if (z < 0) continue;
             const vector xij = cloud.x[i].xyz() - cloud.x[j].xyz();
             areas[z] += V * list.F[k] * xij;
-            fractions[z] += V * kernel.W(xij.norm());
+            moments[z] -= V * list.F[k] * xij * xij.transpose();
         }
         for (const int s : {0, 1})
         {
@@ -141,8 +119,10 @@ struct sideSums
             if (most->norm() < least) break;
             zone[s] = label(most - areas.begin());
             const vector n = most->normalized();
-            area[s] = *most / std::clamp(momentAhead(cloud, list, i, n), 0.9, 1.1);
-            fraction[s] = fractions[zone[s]];
+            way[s] = 0.5 * n.dot(moments[zone[s]] * n) / most->norm() * n;
+            const scalar M = momentAhead(cloud, list, i, n);
+            const scalar N = densityAhead(cloud, list, kernel, i, n);
+            area[s] = *most / (std::clamp(M, 0.9, 1.1) * std::clamp(N, 0.8, 1.2));
             most->setZero();
         }
     }
@@ -157,7 +137,6 @@ void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
     for (const int s : {0, 1})
         for (const char* name : {areaField[s], wayField[s]})
             cloud.vectors[name].assign(cloud.n(), vec4{});
-    const depthTable table(kernel, cloud.nDims);
     List<sideSums> sides;
     for (label i = 0; i < cloud.nSolid(); ++i) sides.emplace_back(cloud, list, kernel, i);
     const scalar m = secondMoment(kernel, cloud.nDims);
@@ -176,10 +155,9 @@ void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
                 const scalar curved =
                     std::clamp(m * divergence(cloud, list, normal, i), -sharpest, sharpest);
                 const vector S = 2 * (1 + curved) * sides[i].area[s];
-                const vector e = table.depth(sides[i].fraction[s]) * normal[i].xyz();
                 cloud.vectors[areaField[s]][i] =
                     vec4::from(F[i].transpose() * S / F[i].determinant(), scalar(z + 1));
-                cloud.vectors[wayField[s]][i] = vec4::from(F[i].inverse() * e);
+                cloud.vectors[wayField[s]][i] = vec4::from(F[i].inverse() * sides[i].way[s]);
             }
     }
 }

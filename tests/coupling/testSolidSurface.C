@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The unit load of the fluid within and around a thick ring and sphere: its flux for the incompressible
-// velocity x/r^nDims is 2 pi and 4 pi, whatever the radius
+// The unit load of the fluid within and around a ring and sphere: its flux for the incompressible velocity
+// x/r^nDims is 2 pi and 4 pi, whatever the radius
 #include "relative.H"
 #include "solidSurface.H"
 
 #include <cmath>
 #include <doctest/doctest.h>
+#include <functional>
 
 using namespace ispf;
 
@@ -20,11 +21,23 @@ struct shell
     std::unique_ptr<smoothingKernel> kernel;
     neighbourList list;
 
-    shell(int nDims, scalar dx) : kernel(smoothingKernel::New("WendlandC2", nDims, 1.3 * dx))
+    shell(int nDims, scalar dx, const std::function<void(shell&)>& fill)
+        : kernel(smoothingKernel::New("WendlandC2", nDims, 1.3 * dx))
     {
         cloud.nDims = nDims, cloud.dx = dx;
         cloud.zones = {
             {"wall", phaseType::solid}, {"in", phaseType::fluid}, {"out", phaseType::fluid}};
+        fill(*this);
+        cloud.vectors["x0"] = cloud.x;
+        list.build(cloud, *kernel);
+    }
+
+    void add(const vector& x, int zone) { cloud.append(x, std::uint8_t(zone), vec4{}, cloud.n()); }
+
+    void lattice()
+    {
+        const int nDims = cloud.nDims;
+        const scalar dx = cloud.dx;
         const label n = label((outerRadius + kernel->support()) / dx) + 1;
         for (const bool solids : {true, false})
             for (label k = nDims == 3 ? -n : 0; k < (nDims == 3 ? n : 1); ++k)
@@ -34,11 +47,44 @@ struct shell
                         const vector x = dx * vector(i + 0.5, j + 0.5, nDims == 3 ? k + 0.5 : 0);
                         const scalar r = x.norm();
                         const int zone = r < innerRadius ? 1 : r < outerRadius ? 0 : 2;
-                        if ((zone == 0) == solids)
-                            cloud.append(x, std::uint8_t(zone), vec4{}, cloud.n());
+                        if ((zone == 0) == solids) add(x, zone);
                     }
-        cloud.vectors["x0"] = cloud.x;
-        list.build(cloud, *kernel);
+    }
+
+    // As packing leaves them: layers along the surface of radius 1, half a spacing before it and behind, those further
+    // off closer to each other; within a layer particles are as much further apart
+    void layers(int fluidZone)
+    {
+        constexpr scalar closer = 0.94;
+        constexpr label nLayers = 6;
+        for (const bool solids : {true, false})
+            for (label k = 0; k < nLayers; ++k)
+            {
+                const bool outside = (fluidZone == 2) != solids;
+                const scalar d = (0.5 + closer * k) * cloud.dx;
+                layer(innerRadius + (outside ? d : -d), closer * cloud.dx, solids ? 0 : fluidZone);
+            }
+    }
+    void layer(scalar r, scalar thickness, int zone)
+    {
+        if (cloud.nDims == 2)
+        {
+            const label n = label(std::lround(2 * M_PI * r * thickness / cloud.volume()));
+            for (label i = 0; i < n; ++i)
+            {
+                const scalar angle = 2 * M_PI * (i + 0.5 * (zone == 0)) / n;
+                add(r * vector(std::cos(angle), std::sin(angle), 0), zone);
+            }
+            return;
+        }
+        // the golden spiral: even to a few per cent
+        const label n = label(std::lround(4 * M_PI * r * r * thickness / cloud.volume()));
+        for (label i = 0; i < n; ++i)
+        {
+            const scalar z = 1 - (2 * i + 1.0) / n, angle = M_PI * (3 - std::sqrt(5.0)) * i;
+            const scalar rho = std::sqrt(1 - z * z);
+            add(r * vector(rho * std::cos(angle), rho * std::sin(angle), z), zone);
+        }
     }
 
     // Of a unit pressure in the zone, by what a sphere of any radius lets through
@@ -74,8 +120,20 @@ TEST_CASE("what passes through the area vectors of curved surfaces, from inside 
     for (const int nDims : {2, 3})
         for (const scalar dx : {0.1, 0.0666})
         {
-            shell s(nDims, dx);
+            shell s(nDims, dx, [](shell& all) { all.lattice(); });
             CHECK(s.flux(1) == relative(-1, 0.006));
             CHECK(s.flux(2) == relative(1, 0.006));
         }
+}
+
+TEST_CASE("the same where layers along the surface hold fewer particles than a lattice")
+{
+    // without the particle's own density N 5 to 8 % are missing, 2 % is what curvature of 10 spacings leaves
+    for (const int nDims : {2, 3})
+        for (const scalar dx : {0.1, 0.0666})
+            for (const int zone : {1, 2})
+            {
+                shell s(nDims, dx, [&](shell& all) { all.layers(zone); });
+                CHECK(s.flux(zone) == relative(zone == 1 ? -1 : 1, 0.02));
+            }
 }
