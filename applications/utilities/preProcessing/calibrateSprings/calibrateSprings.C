@@ -2,8 +2,8 @@
 // How stiff the links of constant/structureProperties are: tension of slabs and cubes along several
 // directions, on a lattice and on disordered particles, and of the case's own body.
 //
-// Each body, free and incompressible, carries a uniform uniaxial stress s (uniformStressTest); the
-// median strain e of its middle gives E = s/e (plane strain tension modulus, 4 G, in 2D), printed over
+// Each body, free and incompressible, carries a uniaxial stress (uniformStressTest).  Mean stress s and
+// median strain e of its middle give E = s/e (plane strain tension modulus, 4 G, in 2D), printed over
 // the modulus that the links name.  Where E or G asks for a modulus every body is judged, 5 % allowed; with
 // k_e nothing is asked: the printed modulus is the one to quote.  -response: springResponse.H
 #include "argList.H"
