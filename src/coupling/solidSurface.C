@@ -89,6 +89,19 @@ scalar densityAhead(const particleCloud& cloud, const neighbourList& list,
     return cloud.volume() * sum / kernel.latticeSum(cloud.dx);
 }
 
+// Half the mean way along n to the fluid on that side, of whatever zone
+vector wayAhead(const particleCloud& cloud, const neighbourList& list, label i, const vector& n)
+{
+    scalar sum = 0, moment = 0;
+    for (std::int64_t k = list.mid[i]; k < list.start[i + 1]; ++k)
+    {
+        const label j = list.index[k];
+        const scalar d = (cloud.x[j].xyz() - cloud.x[i].xyz()).dot(n);
+        if (d > 0 && fluidZone(cloud, j) >= 0) sum += list.F[k] * d, moment += list.F[k] * d * d;
+    }
+    return 0.5 * moment / sum * n;
+}
+
 // The two fluid zones that weigh most about solid particle i: V sum grad W [m^nDims-1] of each, and half the mean way
 // along it to the neighbours
 struct sideSums
@@ -101,7 +114,6 @@ struct sideSums
     {
         const scalar V = cloud.volume(), least = 1e-3 * V / cloud.dx;  // below it is out of sight
         List<vector> areas(cloud.zones.size(), vector::Zero());
-        List<tensor> moments(cloud.zones.size(), tensor::Zero());
         for (std::int64_t k = list.mid[i]; k < list.start[i + 1]; ++k)
         {
             const label j = list.index[k];
@@ -109,7 +121,6 @@ struct sideSums
             if (z < 0) continue;
             const vector xij = cloud.x[i].xyz() - cloud.x[j].xyz();
             areas[z] += V * list.F[k] * xij;
-            moments[z] -= V * list.F[k] * xij * xij.transpose();
         }
         for (const int s : {0, 1})
         {
@@ -119,7 +130,7 @@ struct sideSums
             if (most->norm() < least) break;
             zone[s] = label(most - areas.begin());
             const vector n = most->normalized();
-            way[s] = 0.5 * n.dot(moments[zone[s]] * n) / most->norm() * n;
+            way[s] = wayAhead(cloud, list, i, n);
             const scalar M = momentAhead(cloud, list, i, n);
             const scalar N = densityAhead(cloud, list, kernel, i, n);
             area[s] = *most / (std::clamp(M, 0.9, 1.1) * std::clamp(N, 0.8, 1.2));

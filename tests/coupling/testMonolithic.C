@@ -18,8 +18,8 @@ namespace
 
 constexpr scalar dx = 0.1, innerRadius = 1, outerRadius = 1.4, openRadius = 1.8;
 // The source is smooth and ends before the wall: one that jumps is spread by the divergence.  Rings of
-// width 1/nRings carry one value each.
-constexpr int nRings = 12;
+// width 1/nRings carry one value each; beyond the source's end there is one: a solid particle sees two zones at most.
+constexpr int nRings = 12, lastRing = 9;
 constexpr int ringZone = 2;  // first of them
 scalar profile(int ring)
 {
@@ -64,9 +64,10 @@ private:
                     t.x.push_back(x);
                     t.vectors["U"].push_back(vector::Zero()), t.scalars["p"].push_back(0);
                     t.integers["id"].push_back(globalId(t.x.size()) - 1);
-                    t.integers["zone"].push_back(solid             ? 0
-                                                 : r < innerRadius ? ringZone + int(r * nRings)
-                                                                   : 1);
+                    t.integers["zone"].push_back(
+                        solid             ? 0
+                        : r < innerRadius ? ringZone + std::min(int(r * nRings), lastRing)
+                                          : 1);
                     if (r > openRadius) sites_.push_back(x);
                 }
         t.setAttribute("dx", dx), t.setAttribute("nDims", 2);
