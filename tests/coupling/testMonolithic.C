@@ -124,7 +124,7 @@ struct inflated
 {
     scalar inner, outer;  // area added, as a part of the stroke
     scalar wall;          // mean J - 1
-    scalar pressure;      // of the inner fluid over that of a neo-Hookean ring of this shape
+    scalar pressure;      // of the inner fluid over that of a neo-Hookean ring of this shape, modulusOf
 };
 
 // Pressure difference over a ring of incompressible neo-Hookean material in plane strain whose inner area
@@ -144,6 +144,13 @@ scalar innerPressure(const particleCloud& cloud)
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
         if (cloud.zone[i] >= ringZone) sum += cloud.Up[i][3], ++n;
     return sum / n;
+}
+
+// What springs of few layers reach of the modulus asked for is in their description: 0.978 of it with four
+scalar modulusOf(const structureModel& structure)
+{
+    const word text = structure.description(), before = "mean modulus ";
+    return structure.shearModulus() * std::stod(text.substr(text.find(before) + before.size()));
 }
 
 // +25 % of the inner area in 50 steps of constant rate; c_s dt/dx and volumeFeedback as asked
@@ -178,7 +185,7 @@ inflated inflate(const word& name, scalar courant, const word& feedback)
     for (const tensor& f : F) J += f.determinant() / scalar(F.size());
     return {areaChange(c.cloud, innerRadius, innerRadius + 0.08) / stroke,
             areaChange(c.cloud, outerRadius - 0.08, outerRadius) / stroke, J - 1,
-            innerPressure(c.cloud) / neoHookean(c.structure->shearModulus(), stroke)};
+            innerPressure(c.cloud) / neoHookean(modulusOf(*c.structure), stroke)};
 }
 
 // The ring's system of the first step
@@ -295,7 +302,7 @@ TEST_CASE(
         CHECK(std::abs(area - 1) < 0.015);
     const scalar stiffPressure = inflate("ringFeedback", 300, "0.1").pressure;
     for (const scalar pressure : {soft.pressure, stiffPressure})
-        CHECK(std::abs(pressure - 1) < 0.02);
+        CHECK(std::abs(pressure - 1) < 0.01);
     // single layers of a lattice ring scatter by 1 %, and its surface is extrapolated from them
     CHECK(std::abs(soft.inner - stiff.inner) < 0.01);
     CHECK(std::abs(soft.outer - stiff.outer) < 0.01);
