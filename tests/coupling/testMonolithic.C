@@ -124,7 +124,7 @@ struct inflated
 {
     scalar inner, outer;  // area added, as a part of the stroke
     scalar wall;          // mean J - 1
-    scalar pressure;      // of the inner fluid over that of a neo-Hookean ring of this shape, modulusOf
+    scalar pressure;      // of the inner fluid over the law of such a ring
 };
 
 // Pressure difference over a ring of incompressible neo-Hookean material in plane strain whose inner area
