@@ -228,7 +228,7 @@ void enclosedFluid::keepLevel(const particleCloud& cloud, List<scalar>& z) const
 void enclosedFluid::balance(List<scalar>& rows) const
 {
     const particleCloud& cloud = c_.cloud;
-    label others = cloud.n();
+    label others = cloud.n() - cloud.nSolid();
     const auto bodyOf = [&](label i) { return cloud.isFluid(i) ? bodyOf_[cloud.zone[i]] : -1; };
     for (label b = 0; b < label(bodies_.size()); ++b)
     {
@@ -236,7 +236,8 @@ void enclosedFluid::balance(List<scalar>& rows) const
         removeMean([&](label i) { return bodyOf(i) == b; }, bodies_[b].n, rows);
         others -= bodies_[b].n;
     }
-    if (allFree_) removeMean([&](label i) { return !ofFreeBody(i); }, others, rows);
+    if (allFree_)
+        removeMean([&](label i) { return cloud.isFluid(i) && !ofFreeBody(i); }, others, rows);
 }
 
 }  // namespace ispf
