@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The case's scripts: plunger curves, options, joining of restarted histories
 set -uo pipefail
+[ -z "${ISPF_BIN:-}" ] || ISPF_BIN=$(cd "$ISPF_BIN" && pwd)
 cd "$(dirname "$0")/../tutorials/ispfFsiFoam/hemisphereCappedCylinder"
 failures=0
 fail() { echo "  FAILED: $1"; failures=$((failures+1)); }
