@@ -35,6 +35,16 @@ ISPF_INLINE simd4 wallShare(const view& v, label i)
     return sum;
 }
 
+// What images of curved walls have too much
+ISPF_INLINE simd4 volumeShare(const view& v, label i)
+{
+    simd4 sum = {};
+    for (std::int64_t k = v.first(i); k < v.last(i); ++k)
+        if (const label j = v.list.index[k]; j >= v.cloud.n())
+            sum += (sphc::viscousF(v.cloud, v.list, k) - v.list.F[k]) * (v.phi[j].s - v.phi[i].s);
+    return sum;
+}
+
 ISPF_HOT void firstRange(const view& v, label begin, label end, vec4* gp, vec4* lap, vec4* gs)
 {
     for (label i = begin; i < end; ++i)
@@ -46,6 +56,7 @@ ISPF_HOT void firstRange(const view& v, label begin, label end, vec4* gp, vec4* 
         sums.add(v.list, v.x, v.phi, i, v.mid(i), v.last(i));
         gp[i] = vec4::from(gradient, sums.divergence(v.B.all[i]));
         lap[i].s = v.c[i] * (sums.lap + wallShare(v, i));
+        if (v.cloud.stretched()) lap[i].s += v.c[i] * volumeShare(v, i);
     }
 }
 
@@ -110,7 +121,7 @@ ISPF_HOT void viscousRange(const view& v, label begin, label end, vec4* out)
     {
         simd4 sum = {};
         for (std::int64_t k = v.first(i); k < v.last(i); ++k)
-            sum += v.list.F[k] * v.phi[v.list.index[k]].s;
+            sum += sphc::viscousF(v.cloud, v.list, k) * v.phi[v.list.index[k]].s;
         out[i].s = v.c[i] * sum;
     }
 }
@@ -158,8 +169,8 @@ void monolithicRows::setup(const particleCloud& cloud, const neighbourList& list
             for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
             {
                 const label j = list.index[k];
-                sum +=
-                    list.F[k] * (cloud.phase[j] == phaseType::rigid ? cloud.wallFactor(i, j) : 1);
+                sum += sphc::viscousF(cloud, list, k) *
+                       (cloud.phase[j] == phaseType::rigid ? cloud.wallFactor(i, j) : 1);
             }
             sumF_[i] = scale_[i] * sum;
         }

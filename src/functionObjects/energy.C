@@ -42,7 +42,7 @@ scalar dissipationOf(const presentState& s, scalar mu)
                 const bool rigid = cloud.phase[j] == phaseType::rigid;
                 const scalar both = rigid ? 4 * c[i] * cloud.wallFactor(i, j) : c[i] + c[j];
                 const vector e = cloud.Up[i].xyz() - cloud.Up[j].xyz();
-                part -= s.list.F[k] * both * e.squaredNorm();
+                part -= sphc::viscousF(cloud, s.list, k) * both * e.squaredNorm();
             }
         return part;
     });

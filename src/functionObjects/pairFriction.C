@@ -89,7 +89,8 @@ public:
             const vector u =
                 (rigid ? cloud.wallFactor(i, j) : 1) * (cloud.Up[i].xyz() - cloud.Up[j].xyz()) -
                 turn_[body] * (xi - xj);
-            loads[body].add(0.5 * (xi + xj), -case_.mu * cloud.volume() * both * list.F[k] * u);
+            loads[body].add(0.5 * (xi + xj),
+                            -case_.mu * cloud.volume() * both * sphc::viscousF(cloud, list, k) * u);
         }
     }
 

@@ -48,19 +48,20 @@ ISPF_HOT void laplacianRange(const stencil& s, const vec4* phi, const scalar* c,
                              label begin, label end, vec4* result)
 {
     const label* index = s.list.index.data();
-    const scalar* F = s.list.F.data();
     for (label i = begin; i < end; ++i)
     {
         const simd4 own = phi[i].s;
         simd4 sum = {};
         for (std::int64_t k = s.list.start[i]; k < s.list.mid[i]; ++k)
-            sum += F[k] * (c[i] + c[index[k]]) * (own - phi[index[k]].s);
+            sum +=
+                sphc::viscousF(s.cloud, s.list, k) * (c[i] + c[index[k]]) * (own - phi[index[k]].s);
         const std::int64_t last = filter == pairFilter::all ? s.list.start[i + 1] : s.list.mid[i];
         for (std::int64_t k = s.list.mid[i]; k < last; ++k)
         {
             const label j = index[k];
             const bool rigid = s.cloud.phase[j] == phaseType::rigid;
-            const simd4 e = F[k] * (c[i] + (rigid ? c[i] : c[j])) * (own - phi[j].s);
+            const simd4 e = sphc::viscousF(s.cloud, s.list, k) * (c[i] + (rigid ? c[i] : c[j])) *
+                            (own - phi[j].s);
             sum += rigid ? s.cloud.wallFactor(i, j) * e : e;
         }
         result[i].s = sum;
@@ -96,6 +97,21 @@ tensor pressureCorrection(const stencil& s, label i)
         m -= s.list.F[k] * d * d.transpose();
     }
     return m.determinant() > singular ? tensor(m.inverse()) : s.B.same[i];
+}
+
+// The correction as it would be if images behind curved walls had the volume of what they are images of
+tensor viscousCorrection(const stencil& s, label i)
+{
+    tensor m = vector(0, 0, s.cloud.nDims == 2 ? 1 : 0).asDiagonal();
+    bool stretched = false;
+    for (std::int64_t k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
+    {
+        const vector d = s.cloud.x[i].xyz() - s.cloud.x[s.list.index[k]].xyz();
+        const scalar F = sphc::viscousF(s.cloud, s.list, k);
+        stretched = stretched || F != s.list.F[k];
+        m -= F * d * d.transpose();
+    }
+    return stretched && m.determinant() > singular ? tensor(m.inverse()) : s.B.all[i];
 }
 
 // sum g_ij over all neighbours
@@ -162,8 +178,14 @@ List<scalar> sphc::laplacianScale(const stencil& s)
     const particleCloud& cloud = s.cloud;
     const scalar flat = cloud.nDims == 2 ? 1 : 0;
     List<scalar> c(cloud.nAll(), 1);
-    for (label i = 0; i < cloud.n(); ++i)
-        c[i] = std::clamp((s.B.all[i].trace() - flat) / cloud.nDims, 0.9, 1.1);
+    parallelFor(cloud.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            const tensor& B = s.B.all[i];
+            const scalar trace = cloud.stretched() ? viscousCorrection(s, i).trace() : B.trace();
+            c[i] = std::clamp((trace - flat) / cloud.nDims, 0.9, 1.1);
+        }
+    });
     for (label g = cloud.n(); g < cloud.nAll(); ++g)
         if (cloud.ghostSource(g) >= 0) c[g] = c[cloud.ghostSource(g)];
     return c;

@@ -93,7 +93,7 @@ void particleCloud::clearGhosts()
 {
     x.resize(n_), Up.resize(n_), phase.resize(n_);
     source_.clear(), rule_.clear(), offset_.clear(), through_.clear(), depth_.clear();
-    volume_.clear();
+    volume_.clear(), stretched_ = false;
     rules_.clear();
 }
 
@@ -116,6 +116,7 @@ void particleCloud::addMirror(const imageSource& source, const vector& position,
 {
     addImage(source.particle, source.rule, position, b);
     through_.back() = through, volume_.back() = source.volume;
+    stretched_ = stretched_ || source.volume != 1;
 }
 
 void particleCloud::addRigid(const vector& position, const vector& velocity)
