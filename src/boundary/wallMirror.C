@@ -12,8 +12,9 @@ namespace
 
 constexpr scalar parallel =
     0.75;  // cosine between normals of one part, and of no corner: 41 degrees
-// Where particles would be stretched more they are few, next to the centre of curvature
-constexpr scalar mostStretch = 2;
+// Where particles would be stretched more they are few, next to the centre of curvature.  Never to nothing: viscosity
+// divides by it
+constexpr scalar leastStretch = 1e-3, mostStretch = 2;
 
 // Part of each triangle: connected through edges that are not sharp
 List<label> smoothParts(const triSurface& s, bool twoSided)
@@ -62,7 +63,7 @@ scalar imageVolume(const patchSurface& surface, const surfaceFoot& f, int nDims,
     };
     const auto stretch = [&](scalar kappa) {
         const scalar kd = -kappa * f.depth;
-        return kd < 1 ? std::clamp((1 + kd) / (1 - kd), 0.0, mostStretch) : mostStretch;
+        return kd < 1 ? std::clamp((1 + kd) / (1 - kd), leastStretch, mostStretch) : mostStretch;
     };
     if (nDims == 2)
     {
