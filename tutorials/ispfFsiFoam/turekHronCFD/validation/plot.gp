@@ -7,13 +7,13 @@ stats 'comparison/reference.dat' using 2 name 'lift' nooutput
 stats 'comparison/reference.dat' using 3 name 'amplitude' nooutput
 load = 'comparison/load.dat'
 set multiplot layout 1,2
-set key bottom right
+set key above
 set xlabel 't [s]'
 set ylabel 'drag [N/m]'
 set yrange [0:1.5*drag_max]
 plot load using 1:2 with lines linestyle 1 title 'particles', drag_max with lines linestyle 9 title 'Turek and Hron, mean'
 set ylabel 'lift [N/m]'
-room = 0.2*drag_max + 1.2*amplitude_max
+room = 0.2*drag_max + 1.7*amplitude_max
 set yrange [lift_max - room:lift_max + room]
 plot load using 1:3 with lines linestyle 1 title 'particles', \
      lift_max + amplitude_max with lines linestyle 9 title 'Turek and Hron', \
