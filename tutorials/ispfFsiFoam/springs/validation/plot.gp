@@ -4,7 +4,7 @@ width = 1500; height = 520
 load common
 set multiplot layout 1,3
 set xlabel 'stretch'; set ylabel 'nominal stress [Pa]'
-set key top left font ',9'
+set key bottom right font ',9'
 response = 'comparison/response.dat'
 stats response using 1 nooutput
 set title 'points: calibrateSprings, lines: sums over the links'
@@ -17,6 +17,6 @@ stats slabs using 1 nooutput
 if (STATS_records > 0) { plot for [i=1:STATS_blocks] slabs index i-1 using 1:2 with points linestyle i pointtype 7 title columnheader(1), \
      for [i=1:STATS_blocks] '' index i-1 using 1:3 with lines linestyle i linewidth 1 notitle }
 set title 'a shear wave'; set xlabel 'time [s]'; set ylabel 'energy, of that at the start'
-set key top right
+set key top right; set yrange [0:1.2]
 plot for [i=1:2] 'comparison/wave.dat' index i-1 using 1:2 with lines linestyle i title columnheader(1)
 unset multiplot
