@@ -21,14 +21,17 @@ List<vec4> unpacked(const List<scalar>& x)
 class viscousOperator : public linearOperator
 {
 public:
-    viscousOperator(const stencil& s, scalar dtNu) : s_(s), dtNu_(dtNu) {}
+    viscousOperator(const stencil& s, const List<scalar>& scale, scalar dtNu)
+        : s_(s), scale_(scale), dtNu_(dtNu)
+    {
+    }
     label size() const override { return 4 * s_.cloud.n(); }
 
     void apply(const List<scalar>& x, List<scalar>& y) const override
     {
         List<vec4> u = unpacked(x);
         s_.cloud.fillGhosts(u, true);
-        const List<vec4> lap = sphc::laplacian(s_, u);
+        const List<vec4> lap = sphc::laplacian(s_, u, scale_);
         parallelFor(s_.cloud.n(), [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
                 for (int c = 0; c < 4; ++c)
@@ -39,6 +42,7 @@ public:
 
 private:
     const stencil& s_;
+    const List<scalar>& scale_;
     scalar dtNu_;
 };
 
@@ -92,7 +96,8 @@ void projectionViscosity::solve(particleCloud& cloud, const stencil& s, const Li
     for (label i = 0; i < n; ++i)
         if (cloud.uFixed[i]) given[i] = vec4::from(cloud.Up[i].xyz());
     cloud.fillGhosts(given, false);
-    const List<vec4> fromGiven = sphc::laplacian(s, given);
+    const List<scalar> scale = sphc::laplacianScale(s);
+    const List<vec4> fromGiven = sphc::laplacian(s, given, scale);
 
     List<scalar> b(4 * n, 0), x(4 * n, 0);
     for (label i = 0; i < n; ++i)
@@ -105,7 +110,7 @@ void projectionViscosity::solve(particleCloud& cloud, const stencil& s, const Li
         }
     }
     const solverPerformance result =
-        solver_->solve(viscousOperator(s, dtNu), viscousDiagonal(s, dtNu), b, x);
+        solver_->solve(viscousOperator(s, scale, dtNu), viscousDiagonal(s, dtNu), b, x);
     result.print();
     if (!result.converged && !(result.finalResidual < 1e-3))
         throw fatalError("The viscous predictor did not converge: " + result.line() +

@@ -193,8 +193,13 @@ List<scalar> sphc::laplacianScale(const stencil& s)
 
 List<vec4> sphc::laplacian(const stencil& s, const List<vec4>& phi, pairFilter filter)
 {
+    return laplacian(s, phi, laplacianScale(s), filter);
+}
+
+List<vec4> sphc::laplacian(const stencil& s, const List<vec4>& phi, const List<scalar>& c,
+                           pairFilter filter)
+{
     List<vec4> result(s.cloud.n());
-    const List<scalar> c = laplacianScale(s);
     parallelFor(s.cloud.n(), [&](label begin, label end) {
         laplacianRange(s, phi.data(), c.data(), filter, begin, end, result.data());
     });

@@ -14,6 +14,9 @@ namespace
 
 constexpr scalar dx = 0.05, side = 20 * dx;
 const vector drift = {1, 0.5, 0};
+const word cyclicBox = R"(
+    sides { type cyclic; point (0 0 0); separation (1 0 0); }
+    ends  { type cyclic; point (0 0 0); separation (0 1 0); })";
 
 // The unit square, solids first: those within the radius of the middle, or, in a strip, those at middle height
 void place(caseOnDisk& files, bool strip)
@@ -44,9 +47,7 @@ TEST_CASE("a solid that drifts over cyclic planes does so unnoticed, with both c
             CAPTURE(strip);
             caseOnDisk files("driftingSolid");
             place(files, strip);
-            files.boundary = R"(
-                sides { type cyclic; point (0 0 0); separation (1 0 0); }
-                ends  { type cyclic; point (0 0 0); separation (0 1 0); })";
+            files.boundary = cyclicBox;
             files.properties = "rho 1; mu 0.01;", files.solution = "coupling " + coupling + ";";
             files.write();
             setContent(files.path() + "/constant/structureProperties",
@@ -84,9 +85,7 @@ TEST_CASE(
         const vector x = 2 * M_PI * t.x[i];
         t.vectors["U"][i] = {std::sin(x[0]) * std::sin(x[1]), std::cos(x[0]) * std::cos(x[1]), 0};
     }
-    files.boundary = R"(
-        sides { type cyclic; point (0 0 0); separation (1 0 0); }
-        ends  { type cyclic; point (0 0 0); separation (0 1 0); })";
+    files.boundary = cyclicBox;
     files.properties = "rho 1; mu 0.01;", files.solution = "coupling monolithic;";
     files.write();
     setContent(files.path() + "/constant/structureProperties",
