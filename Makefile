@@ -130,7 +130,7 @@ $(B)/%.o: %.C Makefile
 	@$(CXX) $(CXXFLAGS) $(INC) -MMD -MP -c $< -o $@
 
 test: all testPrograms ## build and run every test (at most 20 minutes; OPT=Sanitize: hours)
-	@ISPF_BIN=$(B)/bin bin/runTests $(B)/testPrograms
+	@ISPF_BIN=$(B)/bin LIMIT=$(if $(filter Release,$(OPT)),1800,36000) bin/runTests $(B)/testPrograms
 
 validate: all ## every tutorial against its reference (at most 2 hours on 2 cores); CASES="a b" runs a choice of them
 	@bin/ispfValidate -tier validate -jobs $(or $(JOBS),2) $(CASES)
