@@ -10,7 +10,7 @@ import sys
 COLUMNS = ["case", "quantity", "reference", "value", "unit", "error", "tolerance", "status", "tier", "particles", "steps",
            "cpuSeconds"]
 
-COLUMNS_SHOWN = 6  # errors in a table of what to expect, which is to fit on a page
+COLUMNS_SHOWN = 6  # errors in a table of costs
 
 
 def cost(case):
@@ -71,17 +71,14 @@ def compared(case, variant, ending):
                             recursive=True))
 
 
-def expectations(gathered):
-    """What to expect: for each tutorial, particles and CPU time of its variants, the cheapest first, beside the errors that
-    several of them have; of many those that come closest to their tolerances"""
-    text = ["", "# What to expect", "",
-            "Errors as in the tables above, by what they cost: CPU time of this machine, of all threads of a run together."]
-    families = {}
-    for (tutorial, variant, _), found in gathered:
-        if variant != "study" and found and found[0][0][9]:
-            families.setdefault(tutorial, []).append((variant, [row for row, _ in found]))
-    for tutorial, variants in families.items():
-        variants.sort(key=lambda v: float(v[1][0][11] or 0))
+def families(gathered):
+    """Of each tutorial its variants that were run, (name, rows), and the quantities that show what they err by: those that
+    several of them have, of many the ones that come closest to their tolerances"""
+    found = {}
+    for (tutorial, variant, _), rows in gathered:
+        if variant != "study" and rows and rows[0][0][9]:
+            found.setdefault(tutorial, []).append((variant, [row for row, _ in rows]))
+    for tutorial, variants in found.items():
         judged = [row for _, rows in variants for row in rows if row[5] not in ("", "nan")]
         names = [row[1] for row in judged]
         close = {}  # largest error over tolerance
@@ -89,15 +86,50 @@ def expectations(gathered):
             if row[6] not in ("", "0"):
                 close[row[1]] = max(close.get(row[1], 0.0), abs(float(row[5])) / float(row[6]))
         several = [q for q in close if names.count(q) > 1 or len(variants) == 1]
-        closest = sorted(several, key=close.get)[-COLUMNS_SHOWN:]
-        shown = [q for q in several if q in closest]
-        if not shown:
-            continue
-        text += ["", f"**{tutorial.split('/')[-1]}**", "",
-                 "| variant | particles | steps | CPU [s] | " + " | ".join(shown) + " |", "|---" * (4 + len(shown)) + "|"]
+        closest = sorted(several, key=close.get, reverse=True)[:COLUMNS_SHOWN]
+        if closest:
+            yield tutorial.split("/")[-1], sorted(variants, key=lambda v: float(v[1][0][11] or 0)), closest
+
+
+def rounded(number):
+    return f"{float(number):.3g}" if number else ""
+
+
+def costs(gathered):
+    """For each tutorial particles and CPU time of its runs, the cheapest first, beside their errors"""
+    text = ["", "# Errors and costs", "",
+            "CPU time is that of this machine, of all threads of a run together. Runs that are told only are in the tables and "
+            "pictures of the studies."]
+    for tutorial, variants, quantities in families(gathered):
+        text += ["", f"**{tutorial}**", "",
+                 "| variant | particles | steps | CPU [s] | " + " | ".join(quantities) + " |",
+                 "|---" * (4 + len(quantities)) + "|"]
         for variant, rows in variants:
-            errors = {row[1]: row[5] + ("" if row[7] == "pass" else " " + row[7]) for row in rows}
-            text.append(f"| {variant} | " + " | ".join(rows[0][9:12] + [errors.get(q, "") for q in shown]) + " |")
+            errors = {row[1]: rounded(row[5]) + ("" if row[7] == "pass" else " FAIL") for row in rows if row[7] != "told"}
+            if any(q in errors for q in quantities):
+                text.append(f"| {variant} | " + " | ".join(rows[0][9:12] + [errors.get(q, "") for q in quantities]) + " |")
+    return text
+
+
+def expectations(gathered):
+    """One page: of each tutorial the errors closest to their tolerances, in the runs that no cheaper one of it equals"""
+    text = ["", "# What to expect", "",
+            "Of each family of cases the two errors that are the hardest to keep within their tolerances, in the runs that no "
+            "cheaper one equals within a tenth, and the largest of all: *variant* error (particles, CPU seconds on this machine). All runs: "
+            "the tables before.", "",
+            "| family | error | by resolution and cost | largest |", "|---|---|---|---|"]
+    for tutorial, variants, quantities in families(gathered):
+        for quantity in quantities[:2]:
+            points = [(abs(float(row[5])), variant, row) for variant, rows in variants for row in rows
+                      if row[1] == quantity and row[7] in ("pass", "FAIL") and row[5] != "nan" and row[6] not in ("", "0")]
+            least, front = float("inf"), []
+            for point in points:
+                if point[0] < 0.9 * least:
+                    least = point[0]
+                    front.append(point)
+            shown = lambda e, variant, row: f"*{variant}* {e:.2g} ({row[9]}, {rounded(row[11])} s)"
+            text.append(f"| {tutorial} | {quantity} | " + ", ".join(shown(*point) for point in front) + " | " +
+                        "".join(shown(*max(points, key=lambda point: point[0])) for _ in points[:1]) + " |")
     return text
 
 
@@ -156,7 +188,7 @@ def main(folder, root):
         if variant == "study":
             text += tables(folder, tutorial)
         text += [""] + [f"![{variant}]({picture})" for picture in pictures(folder, tutorial, variant)]
-    text += expectations(gathered)
+    text += costs(gathered) + expectations(gathered)
     with open(os.path.join(folder, "report.md"), "w", encoding="utf-8") as file:
         file.write("\n".join(text) + "\n")
 
