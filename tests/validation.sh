@@ -13,6 +13,13 @@ for tutorial in $("$validate" -tier quick -list | cut -d ' ' -f 1 | sort -u); do
     grep -q "^$(basename "$tutorial")/.*,pass,quick," "$scratch/quick/summary.csv" || fail "$tutorial is judged nowhere"
 done
 
+# the report ends with one page that has a line of every tutorial with errors to expect
+sed -n '/^# What to expect/,$p' "$scratch/quick/report.md" > "$scratch/page"
+for family in couette hydrostaticBox stirredRing womersley; do
+    grep -qE "^\| $family \| .* \| \*[^ ]+\* [0-9.e-]+ \([0-9]+, [0-9.]+ s\)" "$scratch/page" || fail "not on the last page: $family"
+done
+[ "$(wc -l < "$scratch/page")" -le 60 ] || fail "the last page has $(wc -l < "$scratch/page") lines"
+
 # a tree with one tutorial, broken in each way
 hydrostatics=../../../bin/tools/hydrostatics.py
 broken() { # status pattern-of-what-is-said command that changes the tutorial [options]
