@@ -22,13 +22,13 @@ COLUMNS = ["quantity", "reference", "value", "unit", "error", "tolerance", "stat
 
 
 def entry(file, key, default=None, form="-value"):
-    """An entry as the programs read it, without quotes; SystemExit with their words if it is not there.
-    form -SI: a number without its unit"""
+    """An entry as the programs read it, without quotes; the default if it, or its file, is not there.  SystemExit with the
+    programs' words if they cannot read it.  form -SI: a number without its unit"""
     found = subprocess.run(["ispfDictionary", file] + (["-entry", key] if key else []) + [form], capture_output=True,
                            text=True, check=False)
     if found.returncode == 0:
         return found.stdout.strip().replace('"', "")
-    if default is not None:
+    if default is not None and re.search(r"^There is no entry|: No such file or directory", found.stderr, re.M):
         return default
     sys.exit(found.stderr or found.stdout)
 
@@ -47,16 +47,54 @@ def number(file, key, default=None):
     return float(entry(file, key, None if default is None else str(default), form="-SI"))
 
 
-def vector(file, key):
-    """The numbers of a vector, or of a list of vectors, in SI"""
-    text, _, unit = entry(file, key).rpartition(")")
-    factor = 1.0
-    if unit.strip():
+def vector(file, key, default=None):
+    """The numbers of a vector, or of a list of vectors, in SI.  SystemExit if it is anything else, e.g. a function of time"""
+    text = entry(file, key, default)
+    if isinstance(text, list):
+        return text
+    word = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+    found = re.fullmatch(rf"(\((?:\s*(?:{word}|\((?:\s*{word})*\s*\)))*\s*\))\s*(.*)", text, re.S)
+    if not found:
+        sys.exit(f"{key} of {file} is no constant vector: the reference is known for (x y z) alone, not for\n{text}")
+    factor, unit = 1.0, found[2].strip()
+    if unit:
         with tempfile.NamedTemporaryFile("w", suffix=".dictionary") as one:
             one.write(f"one 1 {unit};\n")
             one.flush()
             factor = number(one.name, "one")
-    return [factor * value for value in numbers(text)]
+    return [factor * value for value in numbers(found[1])]
+
+
+def velocity(file, key):
+    """A constant velocity, (x y z) or { direction; speed }, in SI; (0 0 0) if it is not there.  SystemExit if it changes"""
+    parent, name = key.rsplit(".", 1)
+    if name not in keys(file, parent):
+        return [0.0, 0.0, 0.0]
+    if entry(file, key).startswith("("):
+        return vector(file, key)
+    direction, speed = vector(file, f"{key}.direction"), steady(file, f"{key}.speed")
+    return [speed * d / math.hypot(*direction) for d in direction]
+
+
+def steady(file, key, default=0.0):
+    """A number that may be given as a function of time, but must be constant, in SI; the default if it is not there"""
+    if entry(file, key, "none") == "none":
+        return default
+    function = sine(file, key)
+    if function.amplitude:
+        sys.exit(f"{key} of {file} changes in time: the reference is that of a constant")
+    return function.level
+
+
+def gravity():
+    """Of constant/g, which need not be there"""
+    return vector("constant/g", "value", [0.0, 0.0, 0.0])
+
+
+def largest(values):
+    """Their maximum; nan if one of them is nan, or there is none"""
+    values = list(values)
+    return math.nan if not values or any(map(math.isnan, values)) else max(values)
 
 
 def viscosity():
@@ -69,22 +107,33 @@ def viscosity():
 
 def table(path):
     """Rows of numbers of a table of a function object: columns as titled; vectors are three of them"""
+    if not os.path.exists(path):
+        sys.exit(f"there is no {path}: is its function object in system/controlDict?")
     with open(path, encoding="utf-8") as lines:
         return [[float(w) for w in re.sub(r"[(),]", " ", line).split()] for line in lines
                 if line.strip() and not line.startswith("#")]
 
 
-def history(name, file):
-    """All rows over time that a function object has written, a continued run's parts put together"""
+def history(name, file, whole=True):
+    """All rows over time that a function object has written, a continued run's parts put together; SystemExit if they end
+    before the run does, unless that is allowed"""
     rows = []
     for start in instants(f"postProcessing/{name}"):
         part = table(f"postProcessing/{name}/{start}/{file}")
         rows = [row for row in rows if not part or row[0] < part[0][0]] + part
+    if not rows:
+        sys.exit(f"postProcessing/{name}/*/{file} is empty: does functions.{name} of system/controlDict write within the run?")
+    end = number("system/controlDict", "endTime")
+    between = max([rows[0][0]] + [b[0] - a[0] for a, b in zip(rows, rows[1:])])
+    if whole and len(rows) > 1 and rows[-1][0] < end - 1.5 * between:
+        sys.exit(f"postProcessing/{name}/*/{file} ends at {rows[-1][0]:g} s of {end:g} s")
     return rows
 
 
 def instants(folder):
     """Names of the times that a function object has written, in their order"""
+    if not os.path.isdir(folder):
+        sys.exit(f"there is no {folder}: is its function object in system/controlDict?")
     return sorted((t for t in os.listdir(folder) if re.fullmatch(r"[\d.eE+-]+", t)), key=float)
 
 
@@ -95,8 +144,10 @@ def written():
 
 def field(time, name):
     """Of the particles at a time that was written with writeFormat ascii, e.g. positions, U, p: numbers, or lists of three"""
-    with open(os.path.join(time, name), encoding="utf-8") as file:
-        text = file.read()
+    text = ""
+    if os.path.exists(os.path.join(time, name)):
+        with open(os.path.join(time, name), encoding="utf-8") as file:
+            text = file.read()
     if "format      ascii" not in text[:400]:
         sys.exit(f"{time}/{name} is no text: writeFormat in system/controlDict must be ascii")
     lines = text[text.index("\n(\n") + 3:text.rindex("\n)")].split("\n")
@@ -115,19 +166,19 @@ def startUp(place, component, exact, walls, reach, since=0.0):
     """A flow along walls, all particles at all written times beside exact(s, t), s = place(position): the largest error
     ever from the time `since` on, that at the last time, and the largest slip at the walls, of which walls has functions
     from s to the distance.  Writes comparison/profiles.dat: s, ours, exact"""
-    worst, last, slip, profiles = math.nan, math.nan, math.nan, []
+    worst, last, slip, profiles = [], math.nan, [], []
     for name in written():
         t = float(name)
         rows = sorted((place(x), u[component]) for x, u in zip(field(name, "positions"), field(name, "U")))
         rows = [(s, u, exact(s, t)) for s, u in rows]
-        last = max(abs(u - known) for _, u, known in rows)
+        last = largest(abs(u - known) for _, u, known in rows)
         profiles.append((f"{t:g} s", rows))
         if t < since:
             continue
         slips = [abs(wallSlip([(distance(s), u - known) for s, u, known in rows], reach)) for distance in walls]
-        worst, slip = max(last, worst), max(slips + [slip])  # in this order: nan is left behind
+        worst.append(last), slip.append(largest(slips))
     writeBlocks("comparison/profiles.dat", profiles)
-    return worst, last, slip
+    return largest(worst), last, largest(slip)
 
 
 def interpolated(x, xs, ys):
@@ -235,14 +286,15 @@ class Report:
     def atLeast(self, quantity, value, limit, reason, unit=""):
         """An order of convergence: more is no error"""
         status = "pass" if value >= limit else "FAIL"
-        self._add(quantity, limit, value, unit, min(0.0, value - limit), 0.0, status, reason)
+        self._add(quantity, limit, value, unit, math.nan if value >= limit else value - limit, 0.0, status, reason)
 
     def note(self, quantity, value, reason, unit="", reference=math.nan):
         """What is told and not judged"""
         self._add(quantity, reference, value, unit, math.nan, math.nan, "told", reason)
 
     def _add(self, quantity, reference, value, unit, error, tolerance, status, reason):
-        if self.without:  # no tolerance that it could be outside of
+        # no tolerance that it could be outside of; but what came to nothing is no cost of anything
+        if self.without == "shortened" or self.without and not (status == "FAIL" and math.isnan(value)):
             tolerance, status = math.nan, self.without
         self.rows.append([quantity, reference, value, unit, error, tolerance, status, reason])
 

@@ -18,7 +18,7 @@ def cost(case):
     particles, steps, seconds = "", 0, 0.0
     for folder, _, files in os.walk(case):
         for name in files:
-            if not name.startswith("log.ispfFsiFoam"):
+            if not name.startswith("log.ispfFsiFoam") and name != "solver.log" or ".old/" in folder + "/":
                 continue
             last = 0.0
             with open(os.path.join(folder, name), encoding="utf-8", errors="replace") as log:
@@ -58,6 +58,9 @@ def gather(folder, tutorial, variant, tier):
     for summary in compared(case, variant, "summary.csv"):
         with open(summary, newline="", encoding="utf-8") as file:
             for row in csv.DictReader(file):
+                if None in row.values():
+                    rows.append(([name, "the run", "", "nan", "", "", "", "FAIL", tier] + paid, f"{summary} is cut off"))
+                    break
                 kept = [row[k] for k in COLUMNS[1:8]]
                 rows.append(([name] + kept + [row.get("tier") or tier] + paid, row["reason"]))
     if not rows and variant != "study":
@@ -67,8 +70,8 @@ def gather(folder, tutorial, variant, tier):
 
 def compared(case, variant, ending):
     """Files of the comparison, also of an Allrun that makes folders of its own; a study's are above those of the runs"""
-    return sorted(glob.glob(os.path.join(case, "comparison" if variant == "study" else "**/comparison", "*" + ending),
-                            recursive=True))
+    return sorted(path for path in glob.glob(os.path.join(case, "comparison" if variant == "study" else "**/comparison",
+                                                          "*" + ending), recursive=True) if ".old/" not in path)
 
 
 def families(gathered):
@@ -95,6 +98,12 @@ def rounded(number):
     return f"{float(number):.3g}" if number else ""
 
 
+def withUnit(quantity, variants):
+    """The errors of what would be 0 are absolute; the others are relative"""
+    units = {row[4] for _, rows in variants for row in rows if row[1] == quantity and row[4] and row[2] == "0"}
+    return quantity + (f" [{units.pop()}]" if units else "")
+
+
 def costs(gathered):
     """For each tutorial particles and CPU time of its runs, the cheapest first, beside their errors"""
     text = ["", "# Errors and costs", "",
@@ -102,7 +111,7 @@ def costs(gathered):
             "pictures of the studies."]
     for tutorial, variants, quantities in families(gathered):
         text += ["", f"**{tutorial}**", "",
-                 "| variant | particles | steps | CPU [s] | " + " | ".join(quantities) + " |",
+                 "| variant | particles | steps | CPU [s] | " + " | ".join(withUnit(q, variants) for q in quantities) + " |",
                  "|---" * (4 + len(quantities)) + "|"]
         for variant, rows in variants:
             errors = {row[1]: rounded(row[5]) + ("" if row[7] == "pass" else " FAIL") for row in rows if row[7] != "told"}
@@ -121,14 +130,14 @@ def expectations(gathered):
     for tutorial, variants, quantities in families(gathered):
         for quantity in quantities[:2]:
             points = [(abs(float(row[5])), variant, row) for variant, rows in variants for row in rows
-                      if row[1] == quantity and row[7] in ("pass", "FAIL") and row[5] != "nan" and row[6] not in ("", "0")]
+                      if row[1] == quantity and row[7] in ("pass", "FAIL") and row[5] not in ("", "nan") and row[6] not in ("", "0")]
             least, front = float("inf"), []
             for point in points:
                 if point[0] < 0.9 * least:
                     least = point[0]
                     front.append(point)
             shown = lambda e, variant, row: f"*{variant}* {e:.2g} ({row[9]}, {rounded(row[11])} s)"
-            text.append(f"| {tutorial} | {quantity} | " + ", ".join(shown(*point) for point in front) + " | " +
+            text.append(f"| {tutorial} | {withUnit(quantity, variants)} | " + ", ".join(shown(*point) for point in front) + " | " +
                         "".join(shown(*max(points, key=lambda point: point[0])) for _ in points[:1]) + " |")
     return text
 
