@@ -9,9 +9,9 @@ scratch=$(mktemp -d); trap 'rm -rf "$scratch"' EXIT
 mkdir -p "$scratch/bin" "$scratch/case/system" "$scratch/case/0.orig"
 ln -s "$(cd "${ISPF_BIN:-$tools/../../build/${OPT:-Release}/bin}" && pwd)/ispfDictionary" "$scratch/bin/"
 cd "$scratch/case"
-printf 'application     goodOne;   // a comment\n' > system/controlDict
+printf 'application     goodOne;   // a comment\nendTime         1;\n' > system/controlDict
 echo U > 0.orig/U
-printf '#!/bin/sh\necho "hello $*"; echo "to stderr" >&2\n' > "$scratch/bin/goodOne"
+printf '#!/bin/sh\necho "hello $*"; echo "to stderr" >&2; printf "deltaT = 1\\nTime = 1\\nEnd\\n"\n' > "$scratch/bin/goodOne"
 printf '#!/bin/sh\nseq 50\nprintf "\\n--> FOAM FATAL ERROR: \\nno more ideas\\n" >&2; exit 3\n' > "$scratch/bin/badOne"
 printf '#!/bin/sh\nseq 50; exit 1\n' > "$scratch/bin/muteOne"
 printf '#!/bin/sh\necho End; exit 143\n' > "$scratch/bin/stoppedOne"
@@ -25,13 +25,24 @@ says() { grep -q -- "$1" "$scratch/out" || fail "'$1' is not said: $(cat "$scrat
 
 run 'runApplication "$(getApplication)" -x "a b"; echo after' || fail "good program"
 says after
-[ "$(cat log.goodOne)" = $'hello -x a b\nto stderr' ] || fail "log: $(cat log.goodOne)"
+[ "$(cat log.goodOne)" = $'hello -x a b\nto stderr\ndeltaT = 1\nTime = 1\nEnd' ] || fail "log: $(cat log.goodOne)"
 run 'runApplication goodOne 2; echo after' || fail "second run"
 says "has run already"; says after
 grep -q "hello 2" log.goodOne && fail "an existing log was touched"
 run 'runApplication -a goodOne 3; runApplication -s two goodOne 4' || fail "append and suffix"
 [ "$(grep -c hello log.goodOne)" = 2 ] && grep -q "hello 4" log.goodOne.two || fail "append or suffix"
 run 'runApplication -o goodOne 5' && [ "$(grep hello log.goodOne)" = "hello 5" ] || fail "overwrite"
+
+# what has not ended runs again, with its log kept; what is not ours is left alone
+sed -i 's/Time = 1/Time = 0.5/' log.goodOne
+run 'runApplication goodOne 8; echo after' || fail "a run that has not ended"
+says "goodOne goes on: log.goodOne reached 0.5 of 1 s"; says after
+grep -q "hello 8" log.goodOne && grep -q "hello 5" interrupted/log.goodOne.0 || fail "a run that has not ended does not go on"
+echo cut > log.goodOne; run 'runApplication goodOne 5' && says "log.goodOne has no End"
+[ "$(ls interrupted)" = $'log.goodOne.0\nlog.goodOne.1' ] || fail "logs put aside: $(ls interrupted)"
+echo other > log.true; run 'runApplication true' && says "true has run already"
+rm -r interrupted log.true
+run 'runApplication goodOne 5' && says "has run already"
 
 run 'runParallel -np 4 -s serial goodOne 6; echo after' || fail runParallel
 says "No MPI: goodOne runs as one process"; says after; grep -qx "hello 6" log.goodOne.serial || fail "runParallel's log"
