@@ -34,7 +34,8 @@ def wantsFormulas(errors, rate):
     off = largest(abs(row[3] / exact / math.exp(-rate * (row[0] - start)) - 1) for row in errors)
     if not off < 0.03:
         sys.exit(f"the exact U of {where} does not decay with {rate:g} 1/s, but is up to {100 * off:.3g} % off it: the "
-                 "reference is of vortices of wave number 2 pi alone, without a velocity common to all; take the tutorial's formulas")
+                 "reference is of vortices of wave number 2 pi alone, without a velocity common to all; take the "
+                 "tutorial's formulas")
 
 
 def judge(perNu, profile):

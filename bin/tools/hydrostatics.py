@@ -54,8 +54,8 @@ def compare():
     while line and math.isnan(line[-1][4]):
         line.pop()
     if 2 * len(line) < points or not line:
-        sys.exit(f"functions.depth of system/controlDict: {len(line)} of the line's {points} points lie in the fluid, where p is a "
-                 "number; it wants to be half of them or more")
+        sys.exit(f"functions.depth of system/controlDict: {len(line)} of the line's {points} points lie in the fluid, "
+                 "where p is a number; it wants to be half of them or more")
     hydrostatic = [rho * dot(row[1:4], g) for row in line]
     level = faces[0][0] if faces else sum(row[4] - p for row, p in zip(line, hydrostatic)) / len(line)
     worst = largest(abs(row[4] - p - level) for row, p in zip(line, hydrostatic))
@@ -65,7 +65,8 @@ def compare():
 
     report = Report()
     steps = round(rows[-1][0] / number("system/controlDict", "deltaT"))
-    limit, reason = 1e-6 if ordered else 1e-3, f"asked for: 1e-6 on a lattice with plane walls, 1e-3 otherwise, after {STEPS} steps"
+    limit = 1e-6 if ordered else 1e-3
+    reason = f"asked for: 1e-6 on a lattice with plane walls, 1e-3 otherwise, after {STEPS} steps"
     if steps < STEPS:
         reason += f"; it is held after {steps} so far: a larger endTime of system/controlDict shows more"
     report.below("largest speed at the end over sqrt(g H)", rows[-1][5] / fast, limit, reason)
@@ -75,6 +76,6 @@ def compare():
                  "in all directions of g, not along one line alone; of two particles, not of means over their neighbours")
     report.note("largest speed at any time over sqrt(g H)", largest(row[5] for row in rows) / fast,
                 "p comes from zero in the first step, to the solver's tolerance")
-    report.note("steps", steps, "asked for" if steps >= STEPS else "fewer than those asked for, after which the speed is to be small",
+    report.note("steps", steps, "as asked for" if steps >= STEPS else "fewer than asked for: the speed may grow yet",
                 reference=STEPS)
     return report.write()

@@ -36,8 +36,8 @@ class lengths(dict):
                 self[name] = value(ast.parse(formula.strip(), mode="eval").body, self)
             except (KeyError, SyntaxError, ZeroDivisionError):
                 if wanted:
-                    sys.exit(f"{file}: '{name} = {formula};' is not read here: give a number, or sums, products and quotients "
-                             "of names that are set before")
+                    sys.exit(f"{file}: '{name} = {formula};' is not read here: give a number, or sums, products and "
+                             "quotients of names that are set before")
 
     def __missing__(self, name):
         if name is None or not re.fullmatch(r"[RL]\d|Rb|angle", name):
