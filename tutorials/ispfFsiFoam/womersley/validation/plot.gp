@@ -3,11 +3,11 @@ out = 'comparison/womersley.png'
 width = 1300; height = 480
 load common
 set multiplot layout 1,3
-set xlabel 't/T'; set ylabel 'flow [m³/s]'
+set xlabel 't/T'; set ylabel 'flow'
 set format y '%.1e'
 flow = 'comparison/flow.dat'
 set key outside top center horizontal
-plot flow index 0 using 1:2 with lines linestyle 1 title 'particles', \
+plot flow index 0 using 1:2 with lines linestyle 1 title columnheader(1), \
      '' index 1 using 1:2 with lines linecolor black dashtype 2 title columnheader(1)
 set format y '%g'
 profile = 'comparison/profile.dat'
