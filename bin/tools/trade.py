@@ -8,8 +8,9 @@
     trade.write()       # comparison/trade.csv with all runs, trade.dat and trade.png with the front
     variant, seconds = trade.cheapest(0.01)
 
-A run that no other is both cheaper and better than is on the front; a single run is no family.  CPU time is the solver's ExecutionTime, interrupted
-parts with it.  Variants that VARIANTS does not name are left out; one without its quantity is told as such."""
+A run that no other is both cheaper and better than is on the front; a single run is no family.  CPU time is the solver's
+ExecutionTime, interrupted parts with it.  Variants that VARIANTS does not name are left out; one without its quantity is
+told as such."""
 import csv
 import math
 import os
@@ -54,8 +55,23 @@ class Canvas:
     def __init__(self, points):
         self.low, self.high = ([limit(p[k] for p in points) for k in range(2)] for limit in (min, max))
         self.low, self.high = [0.8 * v for v in self.low], [1.3 * v for v in self.high]
-        self.taken = [(x - self.POINT, y - self.POINT, x + self.POINT, y + self.POINT)
-                      for x, y in (self.pixel(p) for p in points)]
+        self.taken = [self.around(self.pixel(p), self.POINT) for p in points]
+        self.lines = []
+
+    def around(self, place, size):
+        return (place[0] - size, place[1] - size, place[0] + size, place[1] + size)
+
+    def inside(self, box):
+        return box[0] > 0 and box[2] < self.WIDTH and box[1] > 0 and box[3] < self.HEIGHT
+
+    def overlap(self, one, other):
+        return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
+
+    def join(self, points):
+        """The curve through them, as small boxes"""
+        for (x, y), (u, v) in zip(map(self.pixel, points), map(self.pixel, points[1:])):
+            n = 1 + int(math.hypot(u - x, v - y) / 4)
+            self.lines += [self.around((x + (u - x) * k / n, y + (v - y) * k / n), 2) for k in range(n)]
 
     def pixel(self, point):
         return [size * math.log(v / a) / math.log(b / a)
@@ -65,14 +81,14 @@ class Canvas:
         """Left end of the label's middle in data; None if there is no room"""
         x, y = self.pixel(point)
         width = self.LETTER * len(text)
-        for left in (x + 9, x - 9 - width):
-            for middle in (y + 8, y - 8, y):
-                box = (left, middle - self.LINE / 2, left + width, middle + self.LINE / 2)
-                if (box[0] > 0 and box[2] < self.WIDTH and box[1] > 0 and box[3] < self.HEIGHT
-                        and not any(box[0] < t[2] and t[0] < box[2] and box[1] < t[3] and t[1] < box[3] for t in self.taken)):
-                    self.taken.append(box)
-                    return [a * (b / a) ** (v / size) for v, a, b, size
-                            in zip((left, middle), self.low, self.high, (self.WIDTH, self.HEIGHT))]
+        for others in (self.taken + self.lines, self.taken):  # if it cannot be helped, on a line
+            for left in (x + 9, x - 9 - width):
+                for middle in (y + 8, y - 8, y):
+                    box = (left, middle - self.LINE / 2, left + width, middle + self.LINE / 2)
+                    if self.inside(box) and not any(self.overlap(box, other) for other in others):
+                        self.taken.append(box)
+                        return [a * (b / a) ** (v / size) for v, a, b, size
+                                in zip((left, middle), self.low, self.high, (self.WIDTH, self.HEIGHT))]
         return None
 
 
@@ -126,6 +142,8 @@ class Trade:
         at = lambda name: (self.runs[name][2], self.runs[name][3])
         canvas = Canvas([at(name) for _, name, _ in drawn])
         blocks, named, crowd = [], set(), []
+        for title in dict.fromkeys(row[0] for row in drawn):
+            canvas.join([at(name) for family, name, _ in drawn if family == title])
         for title in dict.fromkeys(row[0] for row in drawn):
             lines, left = [], []
             for name, choice in (row[1:] for row in drawn if row[0] == title):
