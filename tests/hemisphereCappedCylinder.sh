@@ -43,6 +43,35 @@ for reached in 5.23 10.476; do
     [ $on = "$([ $reached = 10.476 ] && echo no || echo yes)" ] || fail "stopped at $reached s, goes on: $on: $(cat "$scratch/out")"
 done
 
+# The status is that of the solver, also of one that the paper's scheme has refused half way; there is nothing to draw
+rm "$bin/ispfPostProcess" && printf '#!/bin/sh\n' > "$bin/ispfPostProcess" && chmod +x "$bin/ispfPostProcess"
+again -paper -prepare || fail "-paper -prepare: $(cat "$scratch/out")"
+run=$case/run/dx0.67-B-trapezoid-paper
+mkdir -p "$run/0" && touch "$run/0/particles.hdf" && echo "Particles OK" > "$run/log.checkParticles"
+again -paper && fail "-paper, whose solver has failed, ends with 0"
+grep -q "The run stopped before its end" "$scratch/out" || fail "-paper: $(cat "$scratch/out")"
+
+# Entries of the dictionaries count where no option is given; the step goes with the spacing
+entries() { # folder of the run: E [Pa], dx [m], deltaT, endTime [s]
+    local file
+    for file in constant/structureProperties:E system/particleDict:dx system/controlDict:deltaT system/controlDict:endTime; do
+        "$bin/ispfDictionary" "$case/run/$1/${file%:*}" -entry "${file#*:}" -SI
+    done | paste -sd ' '
+}
+prepared() { # folder, entries, options: after -prepare
+    again -prepare "${@:3}" || fail "-prepare ${*:3}: $(cat "$scratch/out")"
+    [ "$(entries "$1")" = "$2" ] || fail "Allrun ${*:3}: E, dx, deltaT, endTime $(entries "$1"), not $2"
+}
+prepared dx0.67-B-trapezoid "1500000 0.00067 0.01 10.476"
+prepared dx0.5-B-trapezoid "1500000 0.0005 0.0075 10.476" -dx 0.5
+prepared dx0.4-B-trapezoid "1500000 0.0004 0.006 10.476" -dx 0.4
+prepared dx0.67-B-trapezoid-paper "30 0.00067 0.002 10.476" -paper
+(cd "$case" && sed -i 's/^E .*/E 2 [MPa];/' constant/structureProperties && sed -i 's/^dx .*/dx 0.8 [mm];/' system/particleDict &&
+    sed -i 's/^deltaT .*/deltaT 8e-3;/; s/^endTime .*/endTime 3;/' system/controlDict)
+prepared dx0.8-B-trapezoid "2000000 0.0008 0.008 3"
+prepared dx0.4-B-trapezoid-E1e6 "1000000 0.0004 0.004 3" -dx 0.4 -E 1e6
+prepared dx0.8-B-literal-2cycles-deltaT1e-3 "2000000 0.0008 0.001 20.952" -curve literal -cycles 2 -deltaT 1e-3
+
 # Restarts: what a later start repeats is replaced
 printf '# x\n# Time\tdiameter\tdDoverD\n0\t20\t0\n1\t21\t5\n2\t99\t99\n' > "$scratch/0.dat"
 printf '# Time\tdDoverD\tdiameter\n2\t10\t22\n3\t15\t23\n' > "$scratch/2.dat"
@@ -86,6 +115,25 @@ awk '{ q[$1] = $2 } function near(name, v) { if ((q[name] - v)^2 > 1e-8) { print
           near("own.wallVolumeChange", 0.2); near("peak.control", -0.5); near("peak.wallFeedback", -1)
           near("peak.defect", 1.5); near("peak.fluidFeedback", 0.2); near("wallDefect", -0.02); near("pressurePeak", 0.07); near("syringeDiameter", 16); exit bad }' \
     "$scratch/history" || fail "quantities of the histories"
+
+# Three cycles, the third as the others or half as large again, or one value that is no number: what judge says of them
+three() { # factor of the third [value in place of 15 s] : the judged line
+    mkdir -p "$scratch/three/comparison"
+    awk -v factor="$1" -v at15="${2:-}" 'BEGIN { for (i = 0; i <= 300; ++i) {
+        t = 0.1*i; phase = t - 10*int(t/10 + 1e-9); s = phase < 4 ? phase/4 : phase < 8 ? 2 - phase/4 : 0
+        print t, i == 150 && at15 != "" ? at15 : 0.14*s*(t <= 20 ? 1 : factor) } }' > "$scratch/diameter.dat"
+    { printf 'quantity,value\nrun,three\ncycles,3\ndeadCentreInstant,+0.57\n'
+      awk -v period=10 -v top=4 -v cycles=3 -f validation/awk/history.awk "$scratch/diameter.dat" | sed 's/ /,/'
+    } > "$scratch/three/comparison/quantities.csv"
+    PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/bin/tools python3 validation/judge "$scratch/three" | grep "^cycles"
+}
+[[ $(three 1) = "cycles 1 to 3, each against the others "*pass ]] || fail "three equal cycles: $(three 1)"
+[[ $(three 1.5) = *FAIL ]] || fail "a third cycle half as large again: $(three 1.5)"
+[[ $(three 1 nan) = *nan*FAIL ]] || fail "no number at 15 s: $(three 1 nan)"
+mkdir "$scratch/two" && sed '/^2[1-9]/d; /^30/d' "$scratch/diameter.dat" > "$scratch/two/diameter.dat"
+awk -v period=10 -v top=4 -f validation/awk/history.awk "$scratch/two/diameter.dat" | grep -q cycleDifference || fail "two cycles"
+awk -v period=10 -v top=4 -v cycles=3 -f validation/awk/history.awk "$scratch/two/diameter.dat" | grep -q cycleDifference &&
+    fail "two cycles of three are judged"
 
 # Findings are judged at one instant, though another would do, and by what is left without control
 cat > "$scratch/summary.csv" <<END

@@ -24,6 +24,7 @@ wall of N layers that its missing neighbours soften is softer than that, which i
 import argparse
 import math
 import os
+import shutil
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -58,6 +59,15 @@ def shearModulus(nDims, h, dx):
     rule = entry(FILE, "links")
     links = ruleLinks(rule, nDims, number(FILE, "radius", 0))
     return isotropicShear(links, nDims) * number(FILE, "k_e") * h / (dx if nDims == 3 else 1)
+
+
+def fittedShearModulus():
+    """G [Pa] of the case in the present folder, whose links are fitted to it; SystemExit if it names a spring constant:
+    stiffness then depends on direction and on what packing has made of the neighbours"""
+    if entry(FILE, "E", "none") == entry(FILE, "G", "none") == "none":
+        sys.exit(f"{FILE} has neither E nor G: the law is known for links that are fitted to a modulus, as those of "
+                 "packed particles are to E; of k_e it would be the sum over a lattice, which is not theirs.  Give E")
+    return shearModulus(3, math.nan, math.nan)
 
 
 def networkSlope(stretch, m, n=200):
@@ -102,6 +112,11 @@ def main():
     given = words.parse_args()
     if not 0 < given.inner < given.outer:
         words.error(f"rest radii {given.inner} and {given.outer}: 0 < inner < outer is wanted")
+    if not shutil.which("ispfDictionary"):
+        sys.exit("ispfDictionary, which reads the case, is not on the PATH: run 'make', then "
+                 "export PATH=<where this is>/build/Release/bin:$PATH")
+    if not os.path.isdir(given.case):
+        sys.exit(f"there is no folder {given.case}: -case wants that of a case")
     os.chdir(given.case)
     nDims = int(number("system/particleDict", "nDims", 3))
     dx = number("system/particleDict", "dx")

@@ -4,7 +4,8 @@ import math
 import os
 import random
 import re
-from validation import entry, number, numbers
+import sys
+from validation import entry, number, vector
 
 SHUFFLE = 12345
 
@@ -18,7 +19,7 @@ class Transformation:
         angle = math.radians(number(file, "angle"))
         flip = -1.0 if on("mirror") else 1.0
         self.R = [[flip * math.cos(angle), -math.sin(angle), 0.0], [flip * math.sin(angle), math.cos(angle), 0.0], [0.0, 0.0, 1.0]]
-        self.drift = numbers(entry(file, "drift"))
+        self.drift = vector(file, "drift")
         self.shuffle, self.quarter, self.threads = on("shuffle"), on("quarter"), int(number(file, "threads"))
         self.turns = angle != 0 or flip < 0
 
@@ -40,10 +41,14 @@ def times(case):
 
 def read(path):
     """Header and rows of a field, each a list of numbers as they are written"""
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
-    head, body = re.match(r"(.*?List<\w+>\s*)\d+\s*\n\((.*)\)\s*;\s*$", text, re.S).groups()
-    return head, [line.strip("() ").split() for line in body.strip().splitlines()]
+    if not os.path.exists(path):
+        sys.exit(f"there is no {path}: writeFormat in system/controlDict must be ascii")
+    with open(path, encoding="utf-8", errors="replace") as file:
+        found = re.match(r"(.*?List<\w+>\s*)(\d+)\s*\n\((.*)\)\s*;\s*$", file.read(), re.S)
+    lines = found[3].strip().splitlines() if found else []
+    if not found or len(lines) != int(found[2]):
+        sys.exit(f"{path} is cut off, or no list as text: remove its time folder and run again; writeFormat ascii is wanted")
+    return found[1], [line.strip("() ").split() for line in lines]
 
 
 def field(case, time, name):
@@ -59,7 +64,7 @@ def byId(case, time):
 
 def cells(v):
     """A difference of positions, whole periods taken out"""
-    return [x - round(x) for x in v]
+    return [x - round(x) if math.isfinite(x) else math.nan for x in v]
 
 
 def order(case, time, how):

@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What the histories say.  Variables: period, top (time of the full stroke within it) [s]; stroke [m3];
-# rest, the cavity's volume, and wall, the solid's [m3].
+# What the histories say; "nan" where a value is no number.  Variables: period, top (time of the full stroke within it) [s];
+# cycles, as many as were asked for, 2 by default; stroke [m3]; rest, the cavity's volume, and wall, the solid's [m3].
 # Input: diameter.dat (time, dD/D), volume.dat (time, swept, cavity, openNet, wall, control, wallFeedback, defect,
 # wallDefect, fluidFeedback), pressure.dat (time, p/G)
 function abs(a) { return a < 0 ? -a : a }
-function say(name, value) { printf "%s %.6g\n", name, value }
+function say(name, value) { if (value == "nan") print name, value; else printf "%s %.6g\n", name, value }
+function times(factor, value) { return value == "nan" ? value : factor*value }
 FNR == 1 { file = FILENAME; sub(/.*\//, "", file); sub(/\.dat$/, "", file) }
 {
     n[file] = FNR
-    for (c = 1; c <= NF; ++c) row[file, FNR, c] = $c
+    for (c = 1; c <= NF; ++c) {
+        row[file, FNR, c] = $c
+        if ($c !~ /^[-+]?[0-9.]/) broken[file, c] = 1
+    }
 }
 # Row of the last time that is `phase` within a period; 0 if the history does not reach one
 function rowAt(file, phase,    end, t, i, best) {
@@ -21,11 +25,13 @@ function rowAt(file, phase,    end, t, i, best) {
     return best
 }
 function largest(file, column,    i, most) {
+    if ((file, column) in broken) return "nan"
     for (i = 1; i <= n[file]; ++i) if (abs(row[file, i, column]) > abs(most)) most = row[file, i, column]
     return most
 }
 # Column less another where it is largest
 function largestLess(file, column, other,    i, v, most) {
+    if ((file, column) in broken || (file, other) in broken) return "nan"
     for (i = 1; i <= n[file]; ++i) {
         v = row[file, i, column] - row[file, i, other]
         if (abs(v) > abs(most)) most = v
@@ -39,31 +45,37 @@ function ledger(when, name, k,    c, title) {
     say(name, 100*(row["volume", k, 3] - row["volume", k, 2])/stroke)
     say("own." name, 100*(row["volume", k, 3] - row["volume", k, 2] - row["volume", k, 6])/stroke)
 }
-# Largest difference [%] between the second cycle and the first at the same phase, linear between rows
-function cycleDifference(    i, j, t, a, d, most) {
+# Largest difference [%] at the same phase between any two cycles that are `apart` from each other, linear between rows
+function differenceOf(apart,    i, j, t, a, d, most) {
     j = 1
     for (i = 1; i <= n["diameter"]; ++i) {
-        t = row["diameter", i, 1] - period
-        if (t < 0 || t > period) continue
+        t = row["diameter", i, 1] - apart
+        if (t < 0) continue
         while (j < n["diameter"] - 1 && row["diameter", j + 1, 1] < t) ++j
         a = (t - row["diameter", j, 1])/(row["diameter", j + 1, 1] - row["diameter", j, 1])
         d = row["diameter", i, 2] - (1 - a)*row["diameter", j, 2] - a*row["diameter", j + 1, 2]
         if (abs(d) > most) most = abs(d)
     }
-    return 100*most/largest("diameter", 2)
+    return most
+}
+function cycleDifference(    k, d, most) {
+    if (("diameter", 1) in broken || ("diameter", 2) in broken) return "nan"
+    for (k = 1; k < cycles; ++k) if ((d = differenceOf(k*period)) > most) most = d
+    return 100*most/abs(largest("diameter", 2))
 }
 END {
-    if (rowAt("diameter", top)) say("dDPeak", 100*largest("diameter", 2))
-    if (rowAt("diameter", 2*period)) say("cycleDifference", cycleDifference())
+    if (cycles < 2) cycles = 2
+    if (rowAt("diameter", top)) say("dDPeak", times(100, largest("diameter", 2)))
+    if (rowAt("diameter", cycles*period)) say("cycleDifference", cycleDifference())
     if (k = rowAt("volume", top)) {
-        say("syringeDiameter", 16*sqrt(largest("volume", 2)/stroke))
-        if (rest) say("volumeIncrease", 100*largest("volume", 3)/rest)
+        say("syringeDiameter", ("volume", 2) in broken ? "nan" : 16*sqrt(largest("volume", 2)/stroke))
+        if (rest) say("volumeIncrease", times(100/rest, largest("volume", 3)))
         ledger("peak", "volumeDefectPeak", k)
         if (wall) {
-            say("wallVolumeChange", 100*largest("volume", 5)/wall)
-            say("wallFeedback", 100*largest("volume", 7)/wall)
-            say("wallDefect", 100*largest("volume", 9)/wall)
-            say("own.wallVolumeChange", 100*largestLess("volume", 5, 7)/wall)
+            say("wallVolumeChange", times(100/wall, largest("volume", 5)))
+            say("wallFeedback", times(100/wall, largest("volume", 7)))
+            say("wallDefect", times(100/wall, largest("volume", 9)))
+            say("own.wallVolumeChange", times(100/wall, largestLess("volume", 5, 7)))
         }
     }
     if (k = rowAt("volume", period)) ledger("end", "volumeDefectEnd", k)
