@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 namespace ispf
 {
@@ -57,25 +56,6 @@ trackedSurface::trackedSurface(const word& name, const fsiCase& c, const fileLoc
     update(c.cloud.x);
 }
 
-namespace
-{
-
-// What is clamped moves as one up to its edge, where the solid's motion has a kink that a fit would round off.  The edge
-// is half-way between the last clamped particles and the first free ones, which are not in line
-bool isClamped(const particleCloud& cloud, const pointGrid& solids, const List<label>& near,
-               const vector& x)
-{
-    scalar clamped = std::numeric_limits<scalar>::max(), others = clamped;
-    for (const label j : near)
-    {
-        scalar& least = cloud.uFixed[j] ? clamped : others;
-        least = std::min(least, (solids[j] - x).norm());
-    }
-    return clamped < others + 0.25 * cloud.dx;
-}
-
-}  // namespace
-
 void trackedSurface::attach(const fsiCase& c, const fileLocation& where)
 {
     const List<vec4>& x0 = c.cloud.vectors.at("x0");
@@ -98,8 +78,6 @@ void trackedSurface::attach(const fsiCase& c, const fileLocation& where)
                                          str(x[1]) + " " + str(x[2]) +
                                          ") has no solid particles near it to follow",
                                      where);
-                if (isClamped(c.cloud, solids, near[v], x))
-                    std::erase_if(near[v], [&](label j) { return !c.cloud.uFixed[j]; });
                 List<vector> r;
                 for (const label j : near[v]) r.push_back((solids[j] - x) / reach);
                 weights[v] = followWeights(r);

@@ -7,8 +7,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-
 using namespace ispf;
 
 namespace
@@ -69,32 +67,4 @@ TEST_CASE("area under a bent wall, and what a piston sweeps")
     c.walls->setStep(0, 0.5);
     c.walls->exchange(c.cloud, 0.5);
     CHECK(c.walls->balance()[0].swept == relative(0.5 * 0.03 * length, 1e-6));
-}
-
-TEST_CASE("the edge of what is clamped stays where it is, though the motion has a kink there")
-{
-    caseOnDisk files("clampedEdge");
-    files.fill(20, 3, dx);
-    particleTable& t = files.particles();
-    t.attributes["zones"] = "base wall", t.attributes["phases"] = "clamped solid";
-    // column by column: zones follow each other
-    std::sort(t.x.begin(), t.x.end(), [](const vector& a, const vector& b) { return a[0] < b[0]; });
-    for (size_t i = 0; i < t.x.size(); ++i) t.integers["zone"][i] = t.x[i][0] > 4 * dx;
-    files.write();
-    setContent(files.path() + "/constant/structureProperties",
-               "structureModel springNetwork; E 1e3; links radius; radius 2.6;");
-    writeStrip(files.path(), "wall_to_chamber", 0);
-    capturedLog log;
-    Time time(files.path());
-    fsiCase c(time);
-    trackedSurface surface("wall_to_chamber", c);
-    for (label i = 0; i < c.cloud.n(); ++i)
-        if (!c.cloud.uFixed[i]) c.cloud.x[i][1] += 0.3 * (c.cloud.x[i][0] - 4 * dx);
-    surface.update(c.cloud.x);
-    for (size_t v = 0; v < surface.now().nodes.size(); ++v)
-    {
-        const vector &from = surface.rest().nodes[v], &to = surface.now().nodes[v];
-        if (from[0] < 4.1 * dx) CHECK((to - from).norm() < 1e-9);  // a fit moves it by 0.1 dx
-        else CHECK(std::abs(to[1] - from[1] - 0.3 * (from[0] - 4 * dx)) < 0.15 * dx);
-    }
 }
