@@ -43,6 +43,26 @@ for zones in 'ch { phase fluid; shape box; min (-0.2 0 0); max (0.2 0.1 0); } ba
     echo "dx 0.01; nDims 2; zones { $zones }" > system/particleDict
     generateParticles > out 2>&1 && grep -Eq '^plate +[^ ]+ +[0-9]+ +[-+]0.00' out && ! grep -q Warning out || fail "a thin plate: $(tail -n 8 out)"
 done
+# each layer along a wall's surfaces has the particles of its area: layersOf inner outer layers, radii in dx, of a quarter
+cp constant/boundary keptBoundary
+echo 'a { type symmetryPlane; point (0 0 0); normal (-1 0 0); } b { type symmetryPlane; point (0 0 0); normal (0 -1 0); } walls { type wall; }' > constant/boundary
+layersOf() {
+    echo "dx 0.01; nDims 2; zones { ring { phase solid; shape annulus; point1 (0 0 0); innerRadius $1e-2; outerRadius $2e-2; }
+        lumen { phase fluid; shape annulus; point1 (0 0 0); innerRadius 5e-2; outerRadius $1e-2; } }" > system/particleDict
+    generateParticles > out 2>&1 && h5dump -m %.17g -y -w 1 -d /VTKHDF/Points 0/particles.hdf | tr -d ' ,' | grep -E '^[-0-9.e+]+$' |
+        paste - - - | awk -v inner="$1" -v outer="$2" -v layers="$3" '
+            { r = 100*sqrt($1*$1 + $2*$2) } r > inner && r < outer { ++n[int((r - inner)*layers/(outer - inner))] }
+            END { pi = atan2(0, -1); width = (outer - inner)/layers
+                  for (k = 0; k < layers; ++k) if (k < 1 || k == layers - 1 || layers < 6) {
+                      share = n[k]/(0.5*pi*(inner + (k + 0.5)*width)*width)
+                      if (share < 0.95 || share > 1.05) { print "    layer", k + 1, "of", layers ":", share; bad = 1 } }
+                  exit bad }' || fail "the layers of a ring: $(tail -n 5 out)"
+}
+layersOf 20 24 4
+layersOf 20 25 5
+layersOf 20 26 6
+layersOf 20 32 12
+mv keptBoundary constant/boundary
 mv keptDict system/particleDict; generateParticles > out 2>&1
 grep -q "earlier run" out && fail "a cube: told of an earlier run that there is not"
 mkdir 0.5 1; touch 0.5/particles.hdf

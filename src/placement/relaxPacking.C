@@ -5,6 +5,7 @@
 
 #include "packingPairs.H"
 #include "smoothingKernel.H"
+#include <array>
 #include <cmath>
 
 namespace ispf
@@ -170,13 +171,15 @@ List<char> relaxation::secondOfPairs(const cellList& cells) const
 }
 
 // Adds where sums are lowest and removes where they are highest, until a zone has its target or `most` of each.
-// Exchanges as many again, but takes no more than others found room for
+// Exchanges as many again, but takes no more than others found room for; those held in a layer are as many as it
+// takes, and are not exchanged with others
 void relaxation::change(label most, scalar room, exchange what)
 {
     const List<scalar> sum = kernelSums();
-    List<List<label>> member(geometry_.zones().size());
+    List<std::array<List<label>, 2>> zones(geometry_.zones().size());
     for (size_t i = 0; i < particles_.size(); ++i)
-        if (particles_[i].where == place::zone) member[particles_[i].owner].push_back(label(i));
+        if (const packedParticle& p = particles_[i]; p.where == place::zone)
+            zones[p.owner][what == exchange::uneven && p.bound()].push_back(label(i));
     const List<vector> x = withImagePoints(particles_, geometry_, settings_.support);
     const cellList cells(x, settings_.support);
     List<char> gone(particles_.size(), 0), touched(particles_.size(), 0);
@@ -188,12 +191,9 @@ void relaxation::change(label most, scalar room, exchange what)
             if (j < label(touched.size())) touched[j] = 1;
         });
     };
-    for (size_t z = 0; z < member.size(); ++z)
-    {
-        auto& m = member[z];
+    const auto changeSome = [&](List<label>& m, label excess) {
         const auto rank = [&](label i) { return std::make_tuple(second[i], sum[i], i); };
         std::sort(m.begin(), m.end(), [&](label a, label b) { return rank(a) < rank(b); });
-        const label excess = label(m.size()) - target_[z];
         label high = 0, low = 0, pairs = 0;
         for (const label i : m)
             high += sum[i] > 1 + tolerableSum, low += sum[i] < 1 - tolerableSum, pairs += second[i];
@@ -212,6 +212,13 @@ void relaxation::change(label most, scalar room, exchange what)
                 born.push_back(p), ++added, isolate(m[k]);
         removed.resize(std::min<size_t>(removed.size(), remove - std::min(add - added, swap)));
         for (const label i : removed) gone[i] = 1;
+        return label(removed.size()) - added;
+    };
+    for (size_t z = 0; z < zones.size(); ++z)
+    {
+        label excess = -target_[z];
+        for (const List<label>& members : zones[z]) excess += label(members.size());
+        for (List<label>& members : zones[z]) excess -= changeSome(members, excess);
     }
     List<packedParticle> kept;
     for (size_t i = 0; i < particles_.size(); ++i)

@@ -17,7 +17,12 @@ namespace
 
 using place = packedParticle::place;
 
-constexpr scalar samplesPerSpacing = 2.5;
+// 16 for a particle
+scalar samplesPerSpacing(int nDims)
+{
+    return nDims == 3 ? 2.5 : 4;
+}
+
 constexpr label bandsOfThick = 2;  // along each surface of a zone that is not thin
 constexpr scalar thinBelow = 5.5;  // in dx: the whole thickness is made of bands
 
@@ -74,6 +79,7 @@ private:
         s.p.where = place::zone, s.p.owner = zone;
         s.p.depth = (s.band == 0 || thin) && solid ? (s.band + 0.5) * width : -1;
         s.p.x = q.point + (s.band + 0.5) * width * inward;
+        if (s.p.bound()) s.p.normal = inward;
         return true;
     }
 
@@ -201,13 +207,13 @@ private:
     void samplesOf(std::int64_t i, std::int64_t j, std::int64_t k, bandSamples& out) const
     {
         // Fine cells are numbered through the whole space, so that the jitter is the same everywhere
-        const scalar a = dx_ / samplesPerSpacing;
+        const scalar perSpacing = samplesPerSpacing(geometry_.nDims()), a = dx_ / perSpacing;
         std::int64_t first[3], last[3];
         const std::int64_t cell[3] = {i, j, k};
         for (int d = 0; d < 3; ++d)
         {
-            first[d] = std::int64_t(std::ceil(cell[d] * samplesPerSpacing - 1e-9));
-            last[d] = std::int64_t(std::ceil((cell[d] + 1) * samplesPerSpacing - 1e-9));
+            first[d] = std::int64_t(std::ceil(cell[d] * perSpacing - 1e-9));
+            last[d] = std::int64_t(std::ceil((cell[d] + 1) * perSpacing - 1e-9));
         }
         if (geometry_.nDims() == 2) first[2] = 0, last[2] = 1;
         for (std::int64_t c = first[2]; c < last[2]; ++c)
@@ -293,8 +299,8 @@ List<packedParticle> seedPacking(const packingGuides& guides, List<label>& targe
 {
     const zoneGeometry& geometry = guides.geometry();
     const scalar dx = geometry.dx(), cell = std::pow(dx, geometry.nDims());
-    const scalar share =
-        std::pow(samplesPerSpacing, -geometry.nDims());  // of a particle, per sample
+    const int nDims = geometry.nDims();
+    const scalar share = std::pow(samplesPerSpacing(nDims), -nDims);  // of a particle, per sample
     const sampler bands(guides);
 
     List<packedParticle> seeds;
@@ -303,16 +309,17 @@ List<packedParticle> seedPacking(const packingGuides& guides, List<label>& targe
     for (const auto& [key, samples] : sweep.all())
     {
         // A band of another width holds its share of the volume closer together, or further apart
-        List<vector> x;
+        List<vector> x, normals;
         List<scalar> spacing;
         for (const sample& s : samples)
         {
             x.push_back(s.p.x);
+            normals.push_back(s.p.normal);
             spacing.push_back(dx * std::pow(dx / s.width, 1.0 / (geometry.nDims() - 1)));
         }
         const label keep = label(std::lround(share * scalar(samples.size())));
         if (std::get<0>(key) == place::zone) inBands[std::get<1>(key)] += keep;
-        for (const label i : spreadEvenly(x, spacing, geometry.symmetryPlanes(), keep))
+        for (const label i : spreadEvenly(x, normals, spacing, geometry.symmetryPlanes(), keep))
             seeds.push_back(samples[i].p);
     }
     List<List<depthAndParticle>> interior(geometry.zones().size());

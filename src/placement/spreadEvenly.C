@@ -83,19 +83,24 @@ private:
     std::unique_ptr<cellList> cells_;
 };
 
-// Cubes of a few spacings and how many samples each may still lose.  Crowding is a local matter: rims and
-// chance would otherwise make one region denser than another by some percent.
+// Cubes of a few spacings and how many samples each may still lose, those of the two sides of a wall apart.
+// Crowding is a local matter: rims and chance would otherwise make one region denser than another by some percent.
 class quotas
 {
 public:
-    quotas(const List<vector>& samples, const List<scalar>& spacing, label keep)
+    quotas(const List<vector>& samples, const List<vector>& normals, const List<scalar>& spacing,
+           label keep)
     {
-        std::map<std::array<std::int64_t, 3>, List<label>> cubes;
+        // sides first: what rounding leaves stays on a side
+        std::map<std::array<std::int64_t, 6>, List<label>> cubes;
         for (size_t i = 0; i < samples.size(); ++i)
         {
-            std::array<std::int64_t, 3> c;
+            std::array<std::int64_t, 6> c;
             for (int d = 0; d < 3; ++d)
-                c[d] = std::int64_t(std::floor(samples[i][d] / (cubeSize * spacing[0])));
+            {
+                c[d] = std::lround(normals[i][d]);
+                c[3 + d] = std::int64_t(std::floor(samples[i][d] / (cubeSize * spacing[0])));
+            }
             cubes[c].push_back(label(i));
         }
         cube_.resize(samples.size());
@@ -129,8 +134,8 @@ struct candidate
 
 }  // namespace
 
-List<label> spreadEvenly(const List<vector>& samples, const List<scalar>& spacing,
-                         const List<halfSpace>& planes, label keep)
+List<label> spreadEvenly(const List<vector>& samples, const List<vector>& normals,
+                         const List<scalar>& spacing, const List<halfSpace>& planes, label keep)
 {
     const crowd all(samples, spacing, planes);
     const label n = all.size();
@@ -138,7 +143,7 @@ List<label> spreadEvenly(const List<vector>& samples, const List<scalar>& spacin
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i) all.around(i, [&](label, scalar w) { weight[i] += w; });
     });
-    quotas allowed(samples, spacing, keep);
+    quotas allowed(samples, normals, spacing, keep);
     std::priority_queue<candidate> crowded;
     for (label i = 0; i < n; ++i) crowded.push({weight[i], i});
     List<char> gone(n, 0);
