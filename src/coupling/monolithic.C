@@ -131,10 +131,10 @@ void monolithic::structureState()
     c_.structure->deformationGradient(c_.cloud.x, F_);
     c_.structure->force(c_.cloud.x, springForce_);
     c_.structure->assembleTangent(c_.cloud.x, tangentKind::positive, K_);
-    surface_.initialise(c_.cloud, c_.list, *c_.kernel, F_);
+    const List<isometry>& images = c_.structure->reference().images;
+    surface_.initialise(c_.cloud, c_.list, F_, images);
     volume_->setup(F_);
-    surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor(),
-                   c_.structure->reference().images);
+    surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
 }
 
 // The last step's change goes on.  With a pressure that rises steadily this starts nearer to the

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solidSurface.H"
 #include "followWeights.H"
-#include "pointGrid.H"
+#include "imagedPoints.H"
+#include "surfaceCover.H"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,6 @@ namespace
 {
 
 constexpr const char* areaField[2] = {"surfaceAreaA", "surfaceAreaB"};  // {S0, zone + 1}
-constexpr scalar sharpest = 0.3;                                        // an edge is no curvature
 constexpr const char* wayField[2] = {"surfaceWayA", "surfaceWayB"};     // {e0, -}
 
 // Fluid zone of a neighbour, -1 for a rigid one
@@ -21,72 +21,6 @@ int fluidZone(const particleCloud& cloud, label j)
 {
     if (cloud.phase[j] == phaseType::rigid) return -1;
     return cloud.zone[j < cloud.n() ? j : cloud.ghostSource(j)];
-}
-
-// int W y^2 over a line (2D) or a plane (3D) through the kernel's centre, y along one direction.  On a
-// surface with normals n out of the solid 1/2 - m div n / 2 of the kernel lies in the solid
-scalar secondMoment(const smoothingKernel& kernel, int nDims)
-{
-    constexpr int nPoints = 200;
-    const scalar dr = kernel.support() / nPoints;
-    scalar sum = 0;
-    for (int q = 0; q < nPoints; ++q)
-    {
-        const scalar r = (q + 0.5) * dr;
-        sum += kernel.W(r) * (nDims == 3 ? M_PI * r * r * r : 2 * r * r) * dr;
-    }
-    return sum;
-}
-
-// div n about solid particle i: the least-squares slope through its neighbours, {normal, weight} of each
-scalar divergence(const particleCloud& cloud, const neighbourList& list, const List<vec4>& n,
-                  label i)
-{
-    scalar sum = 0;
-    vector dMean = vector::Zero(), nMean = vector::Zero();
-    tensor slope = tensor::Zero(), moment = tensor::Zero();
-    for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
-    {
-        const label j = list.index[k];
-        const vector d = cloud.x[j].xyz() - cloud.x[i].xyz();
-        const scalar w = -list.F[k] * n[j][3];
-        sum += w, dMean += w * d, nMean += w * n[j].xyz();
-        slope += w * n[j].xyz() * d.transpose(), moment += w * d * d.transpose();
-    }
-    if (!(sum > 0)) return 0;
-    slope -= nMean * dMean.transpose() / sum, moment -= dMean * dMean.transpose() / sum;
-    // a single layer has no extent along its normal, nor does n change along it
-    if (!(moment.trace() > 1e-3 * sum * cloud.dx * cloud.dx)) return 0;  // a single neighbour
-    moment += 1e-6 * moment.trace() * tensor::Identity();
-    return (slope * moment.inverse()).trace();
-}
-
-// 2 sum g.n x_ij.n over the half of the kernel on the side of n: 1 but for the particles' arrangement.  The
-// other half may end in a void
-scalar momentAhead(const particleCloud& cloud, const neighbourList& list, label i, const vector& n)
-{
-    scalar sum = 0;
-    for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
-    {
-        const scalar d = (cloud.x[list.index[k]].xyz() - cloud.x[i].xyz()).dot(n);
-        if (d > 0) sum -= 2 * list.F[k] * d * d;
-    }
-    return sum;
-}
-
-// Particles per dx^nDims about i, as its kernel counts them: on the side of n twice, on the other, which may end in
-// a void, not at all, and linear between them.  1 on a lattice
-scalar densityAhead(const particleCloud& cloud, const neighbourList& list,
-                    const smoothingKernel& kernel, label i, const vector& n)
-{
-    scalar sum = kernel.W(0);
-    for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
-    {
-        const vector x = cloud.x[list.index[k]].xyz() - cloud.x[i].xyz();
-        const scalar side = std::clamp(2 * x.dot(n) / cloud.dx, scalar(-1), scalar(1));
-        sum += (1 + side) * kernel.W(x.norm());
-    }
-    return cloud.volume() * sum / kernel.latticeSum(cloud.dx);
 }
 
 // Half the mean way along n to the fluid on that side, of whatever zone
@@ -102,17 +36,16 @@ vector wayAhead(const particleCloud& cloud, const neighbourList& list, label i, 
     return 0.5 * moment / sum * n;
 }
 
-// The two fluid zones that weigh most about solid particle i: V sum grad W [m^nDims-1] of each, and half the mean way
+// The two fluid zones that weigh most about solid particle i: 2 V sum grad W [m^nDims-1] of each, and half the mean way
 // along it to the neighbours
 struct sideSums
 {
     label zone[2] = {-1, -1};
     vector area[2], way[2];
 
-    sideSums(const particleCloud& cloud, const neighbourList& list, const smoothingKernel& kernel,
-             label i)
+    sideSums(const particleCloud& cloud, const neighbourList& list, label i)
     {
-        const scalar V = cloud.volume(), least = 1e-3 * V / cloud.dx;  // below it is out of sight
+        const scalar V = cloud.volume(), least = 2e-3 * V / cloud.dx;  // below it is out of sight
         List<vector> areas(cloud.zones.size(), vector::Zero());
         for (std::int64_t k = list.mid[i]; k < list.start[i + 1]; ++k)
         {
@@ -120,7 +53,7 @@ struct sideSums
             const int z = fluidZone(cloud, j);
             if (z < 0) continue;
             const vector xij = cloud.x[i].xyz() - cloud.x[j].xyz();
-            areas[z] += V * list.F[k] * xij;
+            areas[z] += 2 * V * list.F[k] * xij;
         }
         for (const int s : {0, 1})
         {
@@ -129,11 +62,7 @@ struct sideSums
                 [](const vector& a, const vector& b) { return a.norm() < b.norm(); });
             if (most->norm() < least) break;
             zone[s] = label(most - areas.begin());
-            const vector n = most->normalized();
-            way[s] = wayAhead(cloud, list, i, n);
-            const scalar M = momentAhead(cloud, list, i, n);
-            const scalar N = densityAhead(cloud, list, kernel, i, n);
-            area[s] = *most / (std::clamp(M, 0.9, 1.1) * std::clamp(N, 0.8, 1.2));
+            area[s] = *most, way[s] = wayAhead(cloud, list, i, most->normalized());
             most->setZero();
         }
     }
@@ -142,34 +71,33 @@ struct sideSums
 }  // namespace
 
 void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
-                              const smoothingKernel& kernel, const List<tensor>& F) const
+                              const List<tensor>& F, const List<isometry>& images) const
 {
     if (cloud.vectors.count(areaField[0])) return;
     for (const int s : {0, 1})
         for (const char* name : {areaField[s], wayField[s]})
             cloud.vectors[name].assign(cloud.n(), vec4{});
     List<sideSums> sides;
-    for (label i = 0; i < cloud.nSolid(); ++i) sides.emplace_back(cloud, list, kernel, i);
-    const scalar m = secondMoment(kernel, cloud.nDims);
+    for (label i = 0; i < cloud.nSolid(); ++i) sides.emplace_back(cloud, list, i);
     for (label z = 0; z < label(cloud.zones.size()); ++z)
     {
-        List<vec4> normal(cloud.nAll(), vec4{});
-        for (label i = 0; i < cloud.nSolid(); ++i)
-            for (const int s : {0, 1})
-                if (const vector& a = sides[i].area[s]; sides[i].zone[s] == z)
-                    normal[i] = vec4::from(a.normalized(), a.norm());
-        cloud.fillGradientGhosts(normal);
+        List<std::pair<label, int>> looking;  // particle, its side
+        List<vector> feet, areas;
         for (label i = 0; i < cloud.nSolid(); ++i)
             for (const int s : {0, 1})
             {
                 if (sides[i].zone[s] != z) continue;
-                const scalar curved =
-                    std::clamp(m * divergence(cloud, list, normal, i), -sharpest, sharpest);
-                const vector S = 2 * (1 + curved) * sides[i].area[s];
-                cloud.vectors[areaField[s]][i] =
-                    vec4::from(F[i].transpose() * S / F[i].determinant(), scalar(z + 1));
-                cloud.vectors[wayField[s]][i] = vec4::from(F[i].inverse() * sides[i].way[s]);
+                looking.push_back({i, s}), areas.push_back(sides[i].area[s]);
+                feet.push_back(cloud.x[i].xyz() + sides[i].way[s]);
             }
+        const List<scalar> factor = coverFactors(feet, areas, cloud.nDims, cloud.dx, images);
+        for (size_t k = 0; k < looking.size(); ++k)
+        {
+            const auto [i, s] = looking[k];
+            cloud.vectors[areaField[s]][i] = vec4::from(
+                factor[k] * F[i].transpose() * areas[k] / F[i].determinant(), scalar(z + 1));
+            cloud.vectors[wayField[s]][i] = vec4::from(F[i].inverse() * sides[i].way[s]);
+        }
     }
 }
 
@@ -191,41 +119,6 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
         256);
 }
 
-namespace
-{
-
-// The solid at rest and its images as far as the feet of particles may reach
-struct restPoints
-{
-    pointGrid grid;
-    List<label> source, image;  // image 0: the solid itself
-
-    restPoints(const List<vec4>& x0, label nSolid, scalar reach, const List<isometry>& images)
-        : grid(reach)
-    {
-        vector low = x0[0].xyz(), high = low;
-        for (label j = 0; j < nSolid; ++j)
-        {
-            low = low.cwiseMin(x0[j].xyz()), high = high.cwiseMax(x0[j].xyz());
-            add(x0[j].xyz(), j, 0);
-        }
-        low.array() -= 2 * reach, high.array() += 2 * reach;
-        for (size_t m = 0; m < images.size(); ++m)
-            for (label j = 0; j < nSolid; ++j)
-                if (const vector x = images[m](x0[j].xyz());
-                    (x.array() >= low.array()).all() && (x.array() <= high.array()).all())
-                    add(x, j, label(m + 1));
-    }
-
-private:
-    void add(const vector& x, label j, label m)
-    {
-        grid.add(x), source.push_back(j), image.push_back(m);
-    }
-};
-
-}  // namespace
-
 // The feet do not move within the solid: found once, from the rest state
 void solidSurface::findFeet(const particleCloud& cloud, scalar support,
                             const List<isometry>& images)
@@ -234,7 +127,9 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
     for (const isometry& m : images) turn_.push_back(m.R);
     const List<vec4>& x0 = cloud.vectors.at("x0");
     const scalar reach = std::max(3 * cloud.dx, support);
-    const restPoints solids(x0, cloud.nSolid(), reach, images);
+    List<vector> rest;
+    for (label i = 0; i < cloud.nSolid(); ++i) rest.push_back(x0[i].xyz());
+    const imagedPoints solids(rest, reach, images);
     for (const int s : {0, 1})
     {
         const List<vec4>&A = cloud.vectors.at(areaField[s]), &e = cloud.vectors.at(wayField[s]);
@@ -246,7 +141,7 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
                 for (label i = begin; i < end; ++i)
                 {
                     if (A[i][3] == 0) continue;
-                    const vector foot = x0[i].xyz() + e[i].xyz();
+                    const vector foot = rest[i] + e[i].xyz();
                     List<vector> r;
                     solids.grid.within(foot, reach, [&](label k, scalar) { near[i].push_back(k); });
                     std::sort(near[i].begin(), near[i].end());

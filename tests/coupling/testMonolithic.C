@@ -207,7 +207,7 @@ struct firstStep
         c.structure->deformationGradient(c.cloud.x, F);
         K = c.structure->tangentPattern();
         c.structure->assembleTangent(c.cloud.x, tangentKind::positive, K);
-        surface.initialise(c.cloud, c.list, *c.kernel, F);
+        surface.initialise(c.cloud, c.list, F);
         volume.setup(F);
         surface.setup(c.cloud, c.list, *c.kernel, volume.cofactor());
         setup();

@@ -92,7 +92,7 @@ struct shell
     {
         const List<tensor> F(cloud.nSolid(), tensor::Identity());
         solidSurface surface;
-        surface.initialise(cloud, list, *kernel, F);
+        surface.initialise(cloud, list, F);
         surface.setup(cloud, list, *kernel, F);
         List<vec4> unit(cloud.n()), Q;
         List<tensor> P;

@@ -48,7 +48,7 @@ TEST_CASE(
     const List<tensor> F(cloud.nSolid(), tensor::Identity());
     const auto flux = [&](const List<isometry>& images) {
         solidSurface surface;
-        surface.initialise(cloud, list, *kernel, F);
+        surface.initialise(cloud, list, F);
         surface.setup(cloud, list, *kernel, F, images);
         return surface.flux(cloud.Up, F, {0, 1});
     };
