@@ -116,7 +116,7 @@ struct shell
 
 TEST_CASE("what passes through the area vectors of curved surfaces, from inside and outside")
 {
-    // without the share of the curved side, 1 + m div n, 2 to 5 % are missing or too many
+    // half a kernel about a curved surface holds more or less: without coverFactors 2 to 5 % are missing or too many
     for (const int nDims : {2, 3})
         for (const scalar dx : {0.1, 0.0666})
         {
@@ -128,12 +128,12 @@ TEST_CASE("what passes through the area vectors of curved surfaces, from inside 
 
 TEST_CASE("the same where layers along the surface hold fewer particles than a lattice")
 {
-    // without the particle's own density N 5 to 8 % are missing, 2 % is what curvature of 10 spacings leaves
+    // without coverFactors 5 to 8 % are missing; 1.2 % is what linear extrapolation over a radius of 10 spacings leaves
     for (const int nDims : {2, 3})
         for (const scalar dx : {0.1, 0.0666})
             for (const int zone : {1, 2})
             {
                 shell s(nDims, dx, [&](shell& all) { all.layers(zone); });
-                CHECK(s.flux(zone) == relative(zone == 1 ? -1 : 1, 0.02));
+                CHECK(s.flux(zone) == relative(zone == 1 ? -1 : 1, 0.013));
             }
 }
