@@ -76,9 +76,14 @@ List<scalar> coverFactors(const List<vector>& x, const List<vector>& S, int nDim
     {
         if (known[i] > 0) continue;
         scalar sum = 0, mean = 0;
-        around(i, [&](label j, scalar w, const vector&) {
+        const auto take = [&](label j, scalar w) {
             if (known[j] > 0) sum += w, mean += w * known[j];
-        });
+        };
+        around(i, [&](label j, scalar w, const vector&) { take(j, w); });
+        // a narrow face, as a flag's end: those around the corner
+        if (sum == 0)
+            feet.grid.within(x[i], reach,
+                             [&](label k, scalar r) { take(feet.source[k], weight(r / reach)); });
         factor[i] = sum > 0 ? mean / sum : 1;
     }
     return factor;

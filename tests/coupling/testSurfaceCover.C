@@ -99,6 +99,18 @@ TEST_CASE("where a surface ends its area vectors have the factor of those before
     for (const scalar c : plate.factors(3)) CHECK(c == relative(1 / 0.95, 0.015));
 }
 
+TEST_CASE("a flag's end is too narrow to tell: it has the factor of the sides")
+{
+    surfaceOf flag;
+    const auto add = [&](scalar x, scalar y, const vector& n) {
+        flag.x.push_back(dx * vector(x, y, 0)), flag.S.push_back(0.94 * dx * n);
+    };
+    for (int i = 0; i < 30; ++i) add(i + 0.5, 0, {0, -1, 0}), add(i + 0.5, 4, {0, 1, 0});
+    for (int j = 0; j < 4; ++j) add(30, j + 0.5, {1, 0, 0});
+    const List<scalar> c = flag.factors(2);
+    for (size_t i = 60; i < 64; ++i) CHECK(c[i] == relative(1 / 0.94, 0.02));
+}
+
 TEST_CASE("area vectors that are far off are not made good: no surface is as the points say")
 {
     surfaceOf s = circle(1);
