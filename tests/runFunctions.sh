@@ -44,6 +44,18 @@ echo other > log.true; run 'runApplication true' && says "true has run already"
 rm -r interrupted log.true
 run 'runApplication goodOne 5' && says "has run already"
 
+# what has ended and would read other entries now is no run of theirs; a later end is one to go on to
+echo "rho 1;" > system/properties; run 'runApplication -o goodOne 5' || fail "overwrite"
+run 'runApplication goodOne 9; echo after' && says after || fail "nothing has changed"
+echo "rho 2;" > system/properties
+run 'runApplication goodOne 9; echo after' && fail "an old run for other entries"
+says "but with another system/properties: ./Allclean"; grep -q after "$scratch/out" && fail "went on with an old run"
+run 'cleanCase; runApplication goodOne 10' && grep -q "hello 10" log.goodOne || fail "a clean case runs again"
+sed -i 's/endTime  .*/endTime 2;/' system/controlDict
+run 'runApplication goodOne 11' && says "goodOne goes on: log.goodOne reached 1 of 2 s"
+sed -i 's/endTime .*/endTime         1;/' system/controlDict; rm -r interrupted system/properties
+run 'runApplication -o goodOne 5; runApplication -s two goodOne 4' || fail "overwrite"
+
 run 'runParallel -np 4 -s serial goodOne 6; echo after' || fail runParallel
 says "No MPI: goodOne runs as one process"; says after; grep -qx "hello 6" log.goodOne.serial || fail "runParallel's log"
 run 'runParallel goodOne 7' && says "has run already"

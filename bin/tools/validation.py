@@ -162,21 +162,28 @@ def wallSlip(errors, reach):
     return sum(es) / len(es) - slope(ds, es) * sum(ds) / len(ds)
 
 
-def startUp(place, component, exact, walls, reach, since=0.0):
+def startUp(place, component, exact, walls, reach, since=0.0, final=0.0):
     """A flow along walls, all particles at all written times beside exact(s, t), s = place(position): the largest error
     ever from the time `since` on, that at the last time, and the largest slip at the walls, of which walls has functions
-    from s to the distance.  Writes comparison/profiles.dat: s, ours, exact"""
-    worst, last, slip, profiles = [], math.nan, [], []
+    from s to the distance.  Writes comparison/profiles.dat: s, ours, exact.  SystemExit unless the flow has come to half
+    of its final speed: errors over that one say nothing before"""
+    worst, last, slip, profiles, reached = [], math.nan, [], [], 0.0
     for name in written():
         t = float(name)
         rows = sorted((place(x), u[component]) for x, u in zip(field(name, "positions"), field(name, "U")))
         rows = [(s, u, exact(s, t)) for s, u in rows]
         last = largest(abs(u - known) for _, u, known in rows)
+        reached = largest(abs(known) for _, _, known in rows)
         profiles.append((f"{t:g} s", rows))
         if t < since:
             continue
         slips = [abs(wallSlip([(distance(s), u - known) for s, u, known in rows], reach)) for distance in walls]
         worst.append(last), slip.append(largest(slips))
+    if not profiles:
+        sys.exit("no state has been written after the start: endTime, writeInterval or writeTimes of system/controlDict")
+    if not reached >= 0.5 * final:
+        sys.exit(f"at {profiles[-1][0]}, the last time written, the flow has {100 * reached / final:.2g} % of its final speed: "
+                 "it is judged from half of it on; take a later endTime in system/controlDict, and write there")
     writeBlocks("comparison/profiles.dat", profiles)
     return largest(worst), last, largest(slip)
 
