@@ -36,6 +36,13 @@ broken() { # status pattern-of-what-is-said command that changes the tutorial [o
 broken 0 "5 quantities of 1 runs, 0 FAIL" ""
 broken 1 "largest speed.*FAIL" "sed -i 's/1e-6 if/0 if/' $hydrostatics"
 broken 1 "largest error of p.*FAIL" "sed -i 's/rho \* dot(row/1.01 * &/' $hydrostatics"
+# whatever the end; what was written before the first step is not judged
+short="rest quick system/controlDict endTime 0.05"
+broken 0 "5 quantities of 1 runs, 0 FAIL" "echo '$short' > validation/variants"
+for none in depth extremes; do
+    broken 1 "rest: FAIL, Allrun failed" "echo '$short; system/controlDict functions.$none.writeControl writeTime' > validation/variants"
+    grep -qE "functions.$none .*(no time after the first|no) step" "$scratch/tree/validation/.state/ispfFsiFoam/hydrostaticBox/rest/complaints" || fail "$none: no reason"
+done
 broken 1 "largest speed.*nan .*FAIL" "sed -i 's|rows\[-1\]\[5\] /|math.nan /|' $hydrostatics"
 broken 1 "the run .*FAIL" "sed -i 's/^runComparison/true/' Allrun"
 broken 1 "rest: FAIL, Allrun failed" "setEntry system/sphSolution coupling none"

@@ -175,6 +175,11 @@ scalar boundary::pressureOffset(const structureImage& image) const
     return content_->group.pressureOffset(image);
 }
 
+vector boundary::pressureSlope() const
+{
+    return content_->group.pressureSlope();
+}
+
 List<std::pair<vector, vector>> boundary::symmetryPlanes() const
 {
     return content_->group.symmetryPlanes();

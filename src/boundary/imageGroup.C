@@ -78,6 +78,14 @@ scalar imageGroup::pressureOffset(const structureImage& map) const
     return offset;
 }
 
+vector imageGroup::pressureSlope() const
+{
+    vector slope = vector::Zero();
+    for (const pressureDrop& d : drops_)
+        slope -= d.now / d.separation.squaredNorm() * d.separation;
+    return slope;
+}
+
 List<std::pair<vector, vector>> imageGroup::symmetryPlanes() const
 {
     List<std::pair<vector, vector>> planes;

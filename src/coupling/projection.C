@@ -60,6 +60,7 @@ private:
     List<vec4> accelerations() const;
     List<scalar> sources() const;
     void checkPushed(const List<label>& bodyOf) const;
+    void addSlope(scalar sign);
     void solve(const stencil& s, scalar dt);
     void move(const List<vec4>& before, scalar dt);
 
@@ -71,6 +72,7 @@ private:
     particleShifting shifting_;
     densityFeedback density_;
     hydrostaticPart hydrostatic_;
+    vector slope_ = vector::Zero();  // of p along cyclic patches with a pressureDrop [Pa/m]
 };
 
 // Body force of the zone and springs, Eq. (2) of the paper
@@ -90,6 +92,7 @@ List<vec4> projection::accelerations() const
             a[i].s += vec4::from(c_.bodyForce[cloud.zone[i]] - hydrostatic_.acceleration()).s;
     for (label i = 0; i < cloud.n(); ++i)
         if (cloud.uFixed[i]) a[i] = vec4{};
+        else a[i].s -= vec4::from(slope_ / c_.rho).s;
     return a;
 }
 
@@ -127,6 +130,21 @@ void projection::checkPushed(const List<label>& bodyOf) const
     }
 }
 
+// A pressure that falls from period to period is a force, and p less that slope repeats itself.  With the rest of the
+// gradient, which comes after the viscosity, it would let the fluid slip along walls by dt slope/rho
+void projection::addSlope(scalar sign)
+{
+    if (slope_.isZero(0)) return;
+    particleCloud& cloud = c_.cloud;
+    const auto part = [&](label j) { return sign * slope_.dot(cloud.x[j].xyz()); };
+    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] += part(i), cloud.pGiven[i] += part(i);
+    for (label g = cloud.n(); g < cloud.nAll(); ++g)
+        if (const label source = cloud.ghostSource(g); source >= 0)
+            cloud.addToGhostPressure(g, part(g) - part(source));
+    if (const auto given = cloud.vectors.find(givenGradient); given != cloud.vectors.end())
+        for (vec4& gradient : given->second) gradient.s += vec4::from(sign * slope_).s;
+}
+
 void projection::solve(const stencil& s, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
@@ -138,9 +156,9 @@ void projection::solve(const stencil& s, scalar dt)
         density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, closed),
                        [&](label i) { return c_.isCut(i); });
     step_.predict(cloud, s, accelerations(), dt);
-    hydrostatic_.take(cloud);
+    hydrostatic_.take(cloud), addSlope(-1);
     step_.project(cloud, s, q, c_.kernel->support(), dt);
-    hydrostatic_.giveBack(cloud);
+    hydrostatic_.giveBack(cloud), addSlope(1);
     step_.printContinuityErrors(cloud, s, q, dt);
     density_.book(cloud, dt);
 }
@@ -150,6 +168,7 @@ void projection::step(scalar t, scalar dt)
     printCourant(c_.cloud, dt);
     c_.updateNeighbours(t, t + dt);
     hydrostatic_.setStep(t, t + dt);
+    slope_ = c_.walls->pressureSlope();
     particleCloud& cloud = c_.cloud;
     const stencil s{cloud, c_.list, c_.correction};
     const List<vec4> before = mean_ ? cloud.Up : List<vec4>();
