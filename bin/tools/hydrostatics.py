@@ -38,6 +38,16 @@ def compare():
         sys.exit(f"{patches}: the pressures of the open faces drive a flow")
     # Time, then value and position of min(U) max(U) min(p) max(p)
     rows = history("extremes", "minMax.dat")
+    if not rows[-1][0] > 0:
+        sys.exit("functions.extremes of system/controlDict has written no step, and what rests before the first one is no "
+                 "result: a larger endTime, or writeControl timeStep of extremes, gives some to judge")
+    profiles = [t for t in instants("postProcessing/depth") if float(t) > 0]  # p is that of the steps
+    if not profiles:
+        sys.exit("functions.depth of system/controlDict has written no time after the first step, before which there is no p "
+                 "to judge: writeControl onEnd writes it at the end of the run, whatever endTime is")
+    for name, wanted in (("extremes", ["U", "p"]), ("depth", ["p"])):
+        if entry("system/controlDict", f"functions.{name}.fields", "(U p)").strip("()").split() != wanted:
+            sys.exit(f"functions.{name} of system/controlDict: its columns are read as those of fields ({' '.join(wanted)})")
     ends = [dot(rows[-1][k:k + 3], g) / size for k in (10, 14)]
     top, bottom = min(ends) - dx / 2, max(ends) + dx / 2
     for _, at in faces:  # particles beyond a face do not count
@@ -47,15 +57,15 @@ def compare():
     shapes = {entry(particles, f"zones.{zone}.shape", "file") for zone in keys(particles, "zones")}
     ordered = shapes == {"box"} and entry(particles, "placement", "lattice") == "lattice"
 
-    line = table(f"postProcessing/depth/{instants('postProcessing/depth')[-1]}/line.dat")  # distance, position, p
+    line = table(f"postProcessing/depth/{profiles[-1]}/line.dat")  # distance, position, p
     points = len(line)
     while line and math.isnan(line[0][4]):  # beyond the fluid; what is not a number between is judged
         line.pop(0)
     while line and math.isnan(line[-1][4]):
         line.pop()
-    if 2 * len(line) < points or not line:
+    if 2 * len(line) < points or len(line) < 2:
         sys.exit(f"functions.depth of system/controlDict: {len(line)} of the line's {points} points lie in the fluid, "
-                 "where p is a number; it wants to be half of them or more")
+                 "where p is a number; it wants to be half of them or more, and two at least")
     hydrostatic = [rho * dot(row[1:4], g) for row in line]
     level = faces[0][0] if faces else sum(row[4] - p for row, p in zip(line, hydrostatic)) / len(line)
     worst = largest(abs(row[4] - p - level) for row, p in zip(line, hydrostatic))

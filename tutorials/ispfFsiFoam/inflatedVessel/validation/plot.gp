@@ -9,6 +9,6 @@ plot 'comparison/pressure.dat' using (100*$1):(1e-3*$2) with points linestyle 1 
      '' using (100*$1):(1e-3*$3) with lines linestyle 9 title "springs' law", \
      '' using (100*$1):(1e-3*$4) with lines linestyle 3 dashtype 2 title 'neo-Hooke'
 set xlabel 'radius at rest / A'; set ylabel 'radius / A'
-plot 'comparison/wall.dat' using 1:2 with points linestyle 1 pointtype 7 pointsize 0.4 title 'wall particles', \
-     '' using 1:3 with points linestyle 9 pointtype 7 pointsize 0.2 title 'incompressible'
+plot 'comparison/wall.dat' index 1 using 1:2 with lines linestyle 4 linewidth 6 title 'incompressible', \
+     '' index 0 using 1:2 with points linestyle 1 pointtype 7 pointsize 0.3 title 'wall particles'
 unset multiplot
