@@ -81,8 +81,7 @@ scalar imageGroup::pressureOffset(const structureImage& map) const
 vector imageGroup::pressureSlope() const
 {
     vector slope = vector::Zero();
-    for (const pressureDrop& d : drops_)
-        slope -= d.now / d.separation.squaredNorm() * d.separation;
+    for (const pressureDrop& d : drops_) slope -= d.now / d.separation.squaredNorm() * d.separation;
     return slope;
 }
 
