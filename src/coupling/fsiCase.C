@@ -3,6 +3,7 @@
 
 #include "cloudIO.H"
 #include "sphc.H"
+#include "wallFriction.H"
 
 #include <algorithm>
 #include <cmath>
@@ -238,6 +239,7 @@ void fsiCase::updateNeighbours(scalar t0, scalar t1)
     walls->updateGhosts(cloud);
     list.build(cloud, *kernel, walls->visible(cloud));
     correction.build(cloud, list);
+    makeShearExact(cloud, list);
     countStrays();
 }
 

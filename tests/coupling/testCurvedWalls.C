@@ -274,13 +274,12 @@ TEST_CASE("steady shear between plates: exact with mirrors, nearly with rigid pa
 
 TEST_CASE("steady flow in a pipe converges with either wall")
 {
-    for (const char* kind : {"mirror", "particles"})
-    {
-        CAPTURE(kind);
-        const scalar coarse = pipeError(kind, 4);
-        CHECK(coarse < 0.05);  // 2.6 and 4.6 %
-        CHECK(pipeError(kind, 8) < 0.65 * coarse);
-    }
+    const scalar coarse = pipeError("mirror", 4);
+    CHECK(coarse < 0.05);  // 2.6 %
+    CHECK(pipeError("mirror", 8) < 0.65 * coarse);
+    // 1.0 % each, which the order of the rings leaves; 4.6 % with 4 where walls are not of wallFriction.H
+    CHECK(pipeError("particles", 4) < 0.015);
+    CHECK(pipeError("particles", 8) < 0.015);
 }
 
 // Images of their particles' volume let it grow: 9 times in a ball of 3 dx, 1.5 times in one of 5 dx, 2.1 times around

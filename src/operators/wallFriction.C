@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wallFriction.H"
+#include "parallel.H"
+
+#include <algorithm>
+
+namespace ispf
+{
+
+namespace
+{
+
+constexpr scalar oneSided = 0.9;  // |sum F n| over sum |F| of what is one wall
+
+struct view
+{
+    const particleCloud& cloud;
+    const neighbourList& list;
+
+    // visit(j, F_ij) of the rigid neighbours
+    template <class Visit>
+    void forRigid(label i, Visit&& visit) const
+    {
+        for (std::int64_t k = list.mid[i]; k < list.start[i + 1]; ++k)
+            if (const label j = list.index[k]; cloud.phase[j] == phaseType::rigid) visit(j, list.F[k]);
+    }
+
+    // Unit vector away from the wall, or zero
+    vector away(label i) const
+    {
+        vector sum = vector::Zero();
+        scalar size = 0;
+        forRigid(i, [&](label j, scalar F) { sum -= F * cloud.ghostDepth(j).xyz(), size -= F; });
+        return size > 0 && sum.norm() > oneSided * size ? vector(sum.normalized()) : vector(vector::Zero());
+    }
+
+    scalar shearExact(label i) const
+    {
+        const vector n = away(i);
+        if (n.isZero(0)) return 1;
+        scalar wall = 0, fluid = 0;
+        forRigid(i, [&](label j, scalar F) {
+            const vec4& depth = cloud.ghostDepth(j);
+            wall += F * cloud.wallFactor(i, j) *
+                    n.dot(cloud.x[i].xyz() - cloud.x[j].xyz() - depth[3] * depth.xyz());
+        });
+        for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
+            if (const label j = list.index[k]; cloud.phase[j] != phaseType::rigid)
+                fluid += list.F[k] * n.dot(cloud.x[i].xyz() - cloud.x[j].xyz());
+        return wall < 0 ? std::clamp(-fluid / wall, 0.5, 2.0) : 1;
+    }
+};
+
+}  // namespace
+
+void makeShearExact(particleCloud& cloud, const neighbourList& list)
+{
+    const auto ghosts = cloud.phase.begin() + cloud.n();
+    if (std::find(ghosts, cloud.phase.end(), phaseType::rigid) == cloud.phase.end()) return;
+    List<scalar> scale(cloud.n(), 1);
+    const view v{cloud, list};
+    parallelFor(cloud.n(), [&](label begin, label end) {
+        for (label i = std::max(begin, cloud.nSolid()); i < end; ++i) scale[i] = v.shearExact(i);
+    });
+    cloud.scaleWallFactor(std::move(scale));
+}
+
+}  // namespace ispf

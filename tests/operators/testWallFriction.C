@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wallFriction.H"
+#include "sphc.H"
+#include "smoothingKernel.H"
+
+#include <doctest/doctest.h>
+#include <cmath>
+#include <random>
+
+using namespace ispf;
+
+namespace
+{
+
+constexpr scalar dx = 0.1;
+
+// Fluid in no order before a wall that follows the velocity u = x, in which every shear and stretch is.  radius: of the
+// circle that the wall is round the fluid, 0 for the plane y = 0.  feet: whether those of the rigid particles are known
+struct wallScene
+{
+    particleCloud cloud;
+    neighbourList list;
+    kernelCorrection B;
+    scalar radius;
+
+    wallScene(scalar circle, bool feet) : radius(circle)
+    {
+        cloud.nDims = 2, cloud.dx = dx;
+        cloud.zones = {{"fluid", phaseType::fluid, false}};
+        std::mt19937 random(5);
+        std::uniform_real_distribution<scalar> shift(-0.15 * dx, 0.15 * dx);
+        for (int row = 0; row < 6; ++row)
+            for (int column = 0; column < columns; ++column)
+            {
+                const scalar x = column * dx + shift(random), y = (row + 0.5) * dx + shift(random);
+                cloud.append(at(x, y), 0, vec4{}, cloud.nextId());
+            }
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < columns; ++column)
+            {
+                const vector x = at(column * dx, -(row + 0.5) * dx), foot = at(column * dx, 0);
+                if (feet) cloud.addRigid(x, foot, foot);
+                else cloud.addRigid(x, foot);
+            }
+        list.build(cloud, *smoothingKernel::New("WendlandC2", 2, 1.3 * dx));
+        B.build(cloud, list);
+    }
+
+    // Largest |n.laplacian u| dx of the row next to the wall, away from a plane's ends
+    scalar force() const
+    {
+        List<vec4> u(cloud.n());
+        for (label i = 0; i < cloud.n(); ++i) u[i] = vec4::from(cloud.x[i].xyz());
+        cloud.fillGhosts(u, false);
+        const List<vec4> lap = sphc::laplacian({cloud, list, B}, u, List<scalar>(cloud.nAll(), 1));
+        scalar worst = 0;
+        for (label i = 0; i < columns; ++i)
+        {
+            if (radius == 0 && (i % columns < 4 || i % columns >= columns - 4)) continue;
+            vector n = vector::Zero();
+            for (auto k = list.mid[i]; k < list.start[i + 1]; ++k)
+                if (const label j = list.index[k]; cloud.phase[j] == phaseType::rigid)
+                    n -= list.F[k] * cloud.ghostDepth(j).xyz();
+            worst = std::max(worst, std::abs(n.normalized().dot(lap[i].xyz())) * dx);
+        }
+        return worst;
+    }
+
+private:
+    static constexpr int columns = 50;
+
+    // x along the wall, y into the fluid
+    vector at(scalar x, scalar y) const
+    {
+        if (radius == 0) return {x, y, 0};
+        const scalar angle = 2 * M_PI * x / (columns * dx);
+        return (radius - y) * vector(std::cos(angle), std::sin(angle), 0);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("viscosity leaves linear flow along a wall without a force, whatever the order of the particles")
+{
+    for (const scalar radius : {0.0, 0.8})
+    {
+        CAPTURE(radius);
+        wallScene s(radius, true);
+        CHECK(s.force() > 0.1);
+        makeShearExact(s.cloud, s.list);
+        CHECK(s.force() < 1e-11);
+        s.cloud.clearGhosts();
+        CHECK(s.cloud.nAll() == s.cloud.n());
+    }
+}
+
+TEST_CASE("a wall whose surface is not known is left as it is, and one that is not there costs nothing")
+{
+    wallScene s(0, false);
+    makeShearExact(s.cloud, s.list);
+    for (label i = 0; i < s.cloud.n(); ++i)
+        for (auto k = s.list.mid[i]; k < s.list.start[i + 1]; ++k) CHECK(s.cloud.wallFactor(i, s.list.index[k]) == 2);
+}
+
+TEST_CASE("the number of a row is held within a half and two")
+{
+    wallScene s(0, true);
+    const wallScene plain(0, true);
+    makeShearExact(s.cloud, s.list);
+    scalar least = 1, most = 1;
+    for (label i = 0; i < s.cloud.n(); ++i)
+        for (auto k = s.list.mid[i]; k < s.list.start[i + 1]; ++k)
+        {
+            const label j = s.list.index[k];
+            if (s.cloud.phase[j] != phaseType::rigid) continue;
+            const scalar scale = s.cloud.wallFactor(i, j) / plain.cloud.wallFactor(i, j);
+            least = std::min(least, scale), most = std::max(most, scale);
+        }
+    CHECK(least >= 0.5 * (1 - 1e-12));
+    CHECK(most <= 2 * (1 + 1e-12));
+    CHECK(least < 0.9);
+    CHECK(most > 1.1);
+}
