@@ -11,6 +11,8 @@ namespace ispf
 namespace
 {
 
+const word projectedStep = "projectedStep";  // entry of cloud.history: the last dt [s]
+
 const char* const defaultPressureSolver =
     "solver PCG; preconditioner multigrid; tolerance 1e-6; relTol 0; maxIter 200;";
 
@@ -34,12 +36,11 @@ List<vector> points(const particleCloud& cloud)
 
 projectionStep::projectionStep(scalar rho, scalar mu, const word& viscosity,
                                const operatorSchemes& schemes, const dictionary& solution)
-    : rho_(rho),
-      nu_(mu / rho),
-      reflection_(
-          solution.subOrEmptyDict("projection").getInRangeOrDefault("reflection", 0, 0.9, 0)),
-      schemes_(schemes)
+    : rho_(rho), nu_(mu / rho), schemes_(schemes)
 {
+    const scalar reflection =
+        solution.subOrEmptyDict("projection").getInRangeOrDefault("reflection", 0, 1, 0);
+    leaves_ = reflection / (1 + reflection);
     const dictionary solvers = solution.subOrEmptyDict("solvers");
     const dictionary p = solvers.subOrEmptyDict("p");
     pressureSolver_ = linearSolver::New(
@@ -125,15 +126,36 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
     if (!given.empty()) leaveOutGiven(s, dt, f);
     for (label i = 0; i < label(given.size()); ++i)
         if (cloud.uFixed[i]) cloud.Up[i].setXyz(given[i].xyz());
-    const scalar scale = -(1 + reflection_) * rho_ / dt;
-    for (label i = 0; i < n; ++i) f[i] = scale * (f[i] - (q.empty() ? 0 : q[i]));
+    for (label i = 0; i < n; ++i) f[i] = -rho_ / dt * (f[i] - (q.empty() ? 0 : q[i]));
     if (!given.empty()) endGivenGradient(s, f);
 
     sphm::laplacian(s, equation_);
-    equation_.setSource(f);
-    const List<vector> x = points(cloud);
     p_.resize(n);
     for (label i = 0; i < n; ++i) p_[i] = cloud.pFixed[i] ? cloud.pGiven[i] : cloud.Up[i][3];
+    const auto before = cloud.history.find(projectedStep);
+    const List<scalar> pushes = before == cloud.history.end()
+                                    ? startPressure(cloud, s, f, cellSize, dt)
+                                    : nextPressure(cloud, f, before->second.at(0), cellSize, dt);
+    cloud.history[projectedStep] = {dt};
+
+    for (label i = 0; i < n; ++i) cloud.Up[i][3] = pushes[i];
+    cloud.fillGhosts(cloud.Up, false);
+    const List<vec4> grad = sphc::grad(s, cloud.Up, schemes_.gradient);
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            if (!cloud.uFixed[i]) cloud.Up[i].s -= dt / rho_ * grad[i].s;
+            cloud.Up[i][3] = p_[i];
+        }
+    });
+}
+
+// p_ of -lap p = f, from the p_ that it finds
+void projectionStep::solvePressure(const particleCloud& cloud, const List<scalar>& f,
+                                   scalar cellSize, scalar dt)
+{
+    equation_.setSource(f);
+    const List<vector> x = points(cloud);
     const solverPerformance result = pressureSolver_->solve(
         {equation_.A, true, &x, cellSize, nullptr, floor(cloud, dt)}, equation_.source, p_);
     result.print();
@@ -143,14 +165,41 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
             cloud.describe(worstRow(equation_.A, equation_.source, p_)) + ": " + result.line() +
             ". Raise maxIter in solvers.p of system/sphSolution, or reduce deltaT, and "
             "see whether a load or a motion jumps; the last written time is intact");
+}
 
-    for (label i = 0; i < n; ++i) cloud.Up[i][3] = p_[i];
+// Both return what pushes the velocity; f = -rho/dt (div u* - q)
+List<scalar> projectionStep::startPressure(particleCloud& cloud, const stencil& s, List<scalar>& f,
+                                           scalar cellSize, scalar dt)
+{
+    solvePressure(cloud, f, cellSize, dt);
+    List<scalar> pushes = p_;
     cloud.fillGhosts(cloud.Up, false);
-    const List<vec4> gradP = sphc::grad(s, cloud.Up, schemes_.gradient);
-    parallelFor(n, [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-            if (!cloud.uFixed[i]) cloud.Up[i].s -= dt / rho_ * gradP[i].s;
-    });
+    const List<scalar> loses = sphc::gradSquaredTrace(s, cloud.Up);
+    for (label i = 0; i < cloud.n(); ++i)
+        if (!cloud.uFixed[i]) f[i] += rho_ * loses[i];
+    solvePressure(cloud, f, cellSize, dt);
+    for (label i = 0; i < cloud.n(); ++i) pushes[i] += leaves_ * p_[i];
+    return pushes;
+}
+
+// before: the step before [s]
+List<scalar> projectionStep::nextPressure(const particleCloud& cloud, List<scalar>& f,
+                                          scalar before, scalar cellSize, scalar dt)
+{
+    if (leaves_ == 0)
+    {
+        solvePressure(cloud, f, cellSize, dt);
+        return p_;
+    }
+    List<scalar> old(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i) old[i] = before / dt * cloud.Up[i][3];
+    const List<scalar> left = equation_.minusLaplacian(old);
+    for (label i = 0; i < cloud.n(); ++i)
+        if (!cloud.uFixed[i]) f[i] += leaves_ * left[i];
+    solvePressure(cloud, f, cellSize, dt);
+    List<scalar> pushes(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i) pushes[i] = p_[i] + leaves_ * (p_[i] - old[i]);
+    return pushes;
 }
 
 void projectionStep::printContinuityErrors(particleCloud& cloud, const stencil& s,

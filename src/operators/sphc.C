@@ -173,6 +173,21 @@ List<vec4> sphc::grad(const stencil& s, const List<vec4>& phi, gradientScheme sc
     return result;
 }
 
+List<scalar> sphc::gradSquaredTrace(const stencil& s, const List<vec4>& phi)
+{
+    List<scalar> result(s.cloud.n());
+    parallelFor(s.cloud.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            const pairSums sums = rowSums(s, phi.data(), i, pairFilter::all);
+            tensor gradU;
+            for (int a = 0; a < 3; ++a) gradU.row(a) = (s.B.all[i] * sums.gradient(a)).transpose();
+            result[i] = (gradU * gradU).trace();
+        }
+    });
+    return result;
+}
+
 List<scalar> sphc::laplacianScale(const stencil& s)
 {
     const particleCloud& cloud = s.cloud;

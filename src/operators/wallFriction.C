@@ -22,7 +22,8 @@ struct view
     void forRigid(label i, Visit&& visit) const
     {
         for (std::int64_t k = list.mid[i]; k < list.start[i + 1]; ++k)
-            if (const label j = list.index[k]; cloud.phase[j] == phaseType::rigid) visit(j, list.F[k]);
+            if (const label j = list.index[k]; cloud.phase[j] == phaseType::rigid)
+                visit(j, list.F[k]);
     }
 
     // Unit vector away from the wall, or zero
@@ -31,7 +32,8 @@ struct view
         vector sum = vector::Zero();
         scalar size = 0;
         forRigid(i, [&](label j, scalar F) { sum -= F * cloud.ghostDepth(j).xyz(), size -= F; });
-        return size > 0 && sum.norm() > oneSided * size ? vector(sum.normalized()) : vector(vector::Zero());
+        return size > 0 && sum.norm() > oneSided * size ? vector(sum.normalized())
+                                                        : vector(vector::Zero());
     }
 
     scalar shearExact(label i) const

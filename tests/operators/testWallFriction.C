@@ -80,7 +80,9 @@ private:
 
 }  // namespace
 
-TEST_CASE("viscosity leaves linear flow along a wall without a force, whatever the order of the particles")
+TEST_CASE(
+    "viscosity leaves linear flow along a wall without a force, whatever the order of the "
+    "particles")
 {
     for (const scalar radius : {0.0, 0.8})
     {
@@ -94,12 +96,14 @@ TEST_CASE("viscosity leaves linear flow along a wall without a force, whatever t
     }
 }
 
-TEST_CASE("a wall whose surface is not known is left as it is, and one that is not there costs nothing")
+TEST_CASE(
+    "a wall whose surface is not known is left as it is, and one that is not there costs nothing")
 {
     wallScene s(0, false);
     makeShearExact(s.cloud, s.list);
     for (label i = 0; i < s.cloud.n(); ++i)
-        for (auto k = s.list.mid[i]; k < s.list.start[i + 1]; ++k) CHECK(s.cloud.wallFactor(i, s.list.index[k]) == 2);
+        for (auto k = s.list.mid[i]; k < s.list.start[i + 1]; ++k)
+            CHECK(s.cloud.wallFactor(i, s.list.index[k]) == 2);
 }
 
 TEST_CASE("the number of a row is held within a half and two")
