@@ -23,7 +23,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <ostream>
 
 namespace ispf
@@ -61,7 +60,7 @@ private:
     List<vec4> accelerations() const;
     List<scalar> sources() const;
     void checkPushed(const List<label>& bodyOf) const;
-    void addSlope(scalar sign, const vector& ofState);
+    void addSlope(scalar sign);
     void solve(const stencil& s, scalar dt);
     void move(const List<vec4>& before, scalar dt);
 
@@ -74,7 +73,6 @@ private:
     densityFeedback density_;
     hydrostaticPart hydrostatic_;
     vector slope_ = vector::Zero();  // of p along cyclic patches with a pressureDrop [Pa/m]
-    std::optional<vector> before_;   // the same of the step before, in the p that it has left
 };
 
 // Body force of the zone and springs, Eq. (2) of the paper
@@ -134,13 +132,12 @@ void projection::checkPushed(const List<label>& bodyOf) const
 
 // A pressure that falls from period to period is a force, and p less that slope repeats itself.  With the rest of the
 // gradient, which comes after the viscosity, it would let the fluid slip along walls by dt slope/rho
-void projection::addSlope(scalar sign, const vector& ofState)
+void projection::addSlope(scalar sign)
 {
-    if (slope_.isZero(0) && ofState.isZero(0)) return;
+    if (slope_.isZero(0)) return;
     particleCloud& cloud = c_.cloud;
     const auto part = [&](label j) { return sign * slope_.dot(cloud.x[j].xyz()); };
-    for (label i = 0; i < cloud.n(); ++i)
-        cloud.Up[i][3] += sign * ofState.dot(cloud.x[i].xyz()), cloud.pGiven[i] += part(i);
+    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] += part(i), cloud.pGiven[i] += part(i);
     for (label g = cloud.n(); g < cloud.nAll(); ++g)
         if (const label source = cloud.ghostSource(g); source >= 0)
             cloud.addToGhostPressure(g, part(g) - part(source));
@@ -159,10 +156,9 @@ void projection::solve(const stencil& s, scalar dt)
         density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, closed),
                        [&](label i) { return c_.isCut(i); });
     step_.predict(cloud, s, accelerations(), dt);
-    hydrostatic_.take(cloud), addSlope(-1, before_.value_or(slope_));
+    hydrostatic_.take(cloud), addSlope(-1);
     step_.project(cloud, s, q, c_.kernel->support(), dt);
-    hydrostatic_.giveBack(cloud), addSlope(1, slope_);
-    before_ = slope_;
+    hydrostatic_.giveBack(cloud), addSlope(1);
     step_.printContinuityErrors(cloud, s, q, dt);
     density_.book(cloud, dt);
 }

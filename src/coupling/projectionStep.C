@@ -11,7 +11,7 @@ namespace ispf
 namespace
 {
 
-const word projectedStep = "projectedStep";  // entry of cloud.history: the last dt [s]
+const word projected = "projected";  // entry of cloud.history, after the first step
 
 const char* const defaultPressureSolver =
     "solver PCG; preconditioner multigrid; tolerance 1e-6; relTol 0; maxIter 200;";
@@ -124,30 +124,35 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
     cloud.fillContinuityGhosts(cloud.Up);
     List<scalar> f = sphc::div(s, cloud.Up, schemes_.divergence);
     if (!given.empty()) leaveOutGiven(s, dt, f);
+    const bool first = !cloud.history.count(projected);
+    const List<scalar> loses =
+        leaves_ > 0 || first ? sphc::gradSquaredTrace(s, cloud.Up) : List<scalar>();
     for (label i = 0; i < label(given.size()); ++i)
         if (cloud.uFixed[i]) cloud.Up[i].setXyz(given[i].xyz());
     for (label i = 0; i < n; ++i) f[i] = -rho_ / dt * (f[i] - (q.empty() ? 0 : q[i]));
     if (!given.empty()) endGivenGradient(s, f);
+    const auto addWay = [&](scalar part) {
+        for (label i = 0; i < n; ++i)
+            if (!cloud.uFixed[i]) f[i] += part * rho_ * loses[i];
+    };
+    if (leaves_ > 0) addWay(leaves_);
 
     sphm::laplacian(s, equation_);
     p_.resize(n);
     for (label i = 0; i < n; ++i) p_[i] = cloud.pFixed[i] ? cloud.pGiven[i] : cloud.Up[i][3];
-    const auto before = cloud.history.find(projectedStep);
-    const List<scalar> pushes = before == cloud.history.end()
-                                    ? startPressure(cloud, s, f, cellSize, dt)
-                                    : nextPressure(cloud, f, before->second.at(0), cellSize, dt);
-    cloud.history[projectedStep] = {dt};
-
-    for (label i = 0; i < n; ++i) cloud.Up[i][3] = pushes[i];
+    solvePressure(cloud, f, cellSize, dt);
+    for (label i = 0; i < n; ++i) cloud.Up[i][3] = p_[i];
     cloud.fillGhosts(cloud.Up, false);
-    const List<vec4> grad = sphc::grad(s, cloud.Up, schemes_.gradient);
+    const List<vec4> gradP = sphc::grad(s, cloud.Up, schemes_.gradient);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
-        {
-            if (!cloud.uFixed[i]) cloud.Up[i].s -= dt / rho_ * grad[i].s;
-            cloud.Up[i][3] = p_[i];
-        }
+            if (!cloud.uFixed[i]) cloud.Up[i].s -= dt / rho_ * gradP[i].s;
     });
+    if (!first) return;
+    addWay(1 - leaves_);
+    solvePressure(cloud, f, cellSize, dt);
+    for (label i = 0; i < n; ++i) cloud.Up[i][3] = p_[i];
+    cloud.history[projected] = {1};
 }
 
 // p_ of -lap p = f, from the p_ that it finds
@@ -165,41 +170,6 @@ void projectionStep::solvePressure(const particleCloud& cloud, const List<scalar
             cloud.describe(worstRow(equation_.A, equation_.source, p_)) + ": " + result.line() +
             ". Raise maxIter in solvers.p of system/sphSolution, or reduce deltaT, and "
             "see whether a load or a motion jumps; the last written time is intact");
-}
-
-// Both return what pushes the velocity; f = -rho/dt (div u* - q)
-List<scalar> projectionStep::startPressure(particleCloud& cloud, const stencil& s, List<scalar>& f,
-                                           scalar cellSize, scalar dt)
-{
-    solvePressure(cloud, f, cellSize, dt);
-    List<scalar> pushes = p_;
-    cloud.fillGhosts(cloud.Up, false);
-    const List<scalar> loses = sphc::gradSquaredTrace(s, cloud.Up);
-    for (label i = 0; i < cloud.n(); ++i)
-        if (!cloud.uFixed[i]) f[i] += rho_ * loses[i];
-    solvePressure(cloud, f, cellSize, dt);
-    for (label i = 0; i < cloud.n(); ++i) pushes[i] += leaves_ * p_[i];
-    return pushes;
-}
-
-// before: the step before [s]
-List<scalar> projectionStep::nextPressure(const particleCloud& cloud, List<scalar>& f,
-                                          scalar before, scalar cellSize, scalar dt)
-{
-    if (leaves_ == 0)
-    {
-        solvePressure(cloud, f, cellSize, dt);
-        return p_;
-    }
-    List<scalar> old(cloud.n());
-    for (label i = 0; i < cloud.n(); ++i) old[i] = before / dt * cloud.Up[i][3];
-    const List<scalar> left = equation_.minusLaplacian(old);
-    for (label i = 0; i < cloud.n(); ++i)
-        if (!cloud.uFixed[i]) f[i] += leaves_ * left[i];
-    solvePressure(cloud, f, cellSize, dt);
-    List<scalar> pushes(cloud.n());
-    for (label i = 0; i < cloud.n(); ++i) pushes[i] = p_[i] + leaves_ * (p_[i] - old[i]);
-    return pushes;
 }
 
 void projectionStep::printContinuityErrors(particleCloud& cloud, const stencil& s,

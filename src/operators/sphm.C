@@ -121,14 +121,6 @@ void sphm::laplacian(const stencil& s, pressureEquation& equation)
     pressureAssembly(s, equation).run();
 }
 
-List<scalar> pressureEquation::minusLaplacian(const List<scalar>& p) const
-{
-    List<scalar> f(A.size());
-    A.apply(p, f);
-    for (label i = 0; i < A.size(); ++i) f[i] = fixed_[i] ? 0 : f[i] - boundary_[i];
-    return f;
-}
-
 void pressureEquation::setSource(const List<scalar>& f)
 {
     const label n = A.size();
