@@ -257,3 +257,22 @@ TEST_CASE("a flow through a channel, several times its volume")
     s.pressure = "2.5;";
     check(s, 4e-3, 700);
 }
+
+TEST_CASE("with a reflection the level of pressure does not count, whatever the steps")
+{
+    scalar flow[2];
+    for (const int high : {0, 1})
+    {
+        boxCase b;
+        const scalar level = high ? 1000 : 0;
+        b.patch = {"type open; p " + str(level + 1) + ";", "type open; p " + str(level) + ";",
+                   "type wall;", "type wall;"};
+        b.coupling = "projection", b.mu = 0.2,
+        b.solution = "projection { reflection 1; } densityFeedback 0;";
+        runningBox r(b);
+        for (const scalar dt : {1e-3, 1e-3, 0.9e-3, 0.9e-3, 1.2e-3}) r.run(dt, 2);
+        flow[high] = r.c.walls->balance()[1].flux;
+        CHECK(flow[high] > 0);
+    }
+    CHECK(flow[1] == relative(flow[0], 0.01));  // the solver's tolerance is one of the level
+}
