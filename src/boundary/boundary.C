@@ -8,10 +8,10 @@ namespace ispf
 
 boundary::~boundary() = default;
 
-void boundary::setStep(scalar t0, scalar t1)
+void boundary::setStep(scalar t0, scalar t1, scalar behind)
 {
     content_->t0 = t0;
-    content_->walls.setStep(t0, t1), content_->group.setTime(t1);
+    content_->walls.setStep(t0, t1, behind), content_->group.setTime(t1);
     content_->setStep(t0, t1);
 }
 

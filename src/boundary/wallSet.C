@@ -126,9 +126,9 @@ void wallSet::readRigid(const word& caseFolder, const dictionary& patches)
         if (wanted(w)) w.rigid = file.positions(w.name, patches.subDict(w.name).where("type"));
 }
 
-void wallSet::setStep(scalar t0, scalar t1)
+void wallSet::setStep(scalar t0, scalar t1, scalar behind)
 {
-    for (wall& w : walls_) w.setStep(t0, t1);
+    for (wall& w : walls_) w.setStep(t0, t1, behind);
 }
 
 scalar wallSet::perDepth(const patchSurface& s) const
@@ -374,8 +374,8 @@ void wallSet::addRigid(particleCloud& cloud) const
         for (size_t k = 0; k < w.rigid.size(); ++k)
             if (const vector at = w.frame.toSpace(w.rigid[k]); cells.near(at))
             {
-                const vector foot = w.frame.toSpace(w.footOf(k));
-                cloud.addRigid(at, w.velocity.at(w.motion.rotates() ? foot : at), foot);
+                const vector foot = w.frame.toSpace(w.footOf(k)), whose = w.motion.rotates() ? foot : at;
+                cloud.addRigid(at, w.velocity.at(whose), foot, w.gained(whose));
             }
 }
 

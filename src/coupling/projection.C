@@ -166,7 +166,7 @@ void projection::solve(const stencil& s, scalar dt)
 void projection::step(scalar t, scalar dt)
 {
     printCourant(c_.cloud, dt);
-    c_.updateNeighbours(t, t + dt);
+    c_.updateNeighbours(t, t + dt, projectionStep::behind(c_.cloud));
     hydrostatic_.setStep(t, t + dt);
     slope_ = c_.walls->pressureSlope();
     particleCloud& cloud = c_.cloud;

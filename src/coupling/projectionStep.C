@@ -11,7 +11,7 @@ namespace ispf
 namespace
 {
 
-const word projected = "projected";  // entry of cloud.history, after the first step
+const word projected = "projected";  // entry of cloud.history: length of the last step
 
 const char* const defaultPressureSolver =
     "solver PCG; preconditioner multigrid; tolerance 1e-6; relTol 0; maxIter 200;";
@@ -49,8 +49,15 @@ projectionStep::projectionStep(scalar rho, scalar mu, const word& viscosity,
         viscous_ = std::make_unique<projectionViscosity>(solvers.subOrEmptyDict("U"));
 }
 
+scalar projectionStep::behind(const particleCloud& cloud)
+{
+    const auto found = cloud.history.find(projected);
+    return found == cloud.history.end() ? 0 : found->second[0];
+}
+
 void projectionStep::predict(particleCloud& cloud, const stencil& s, const List<vec4>& a, scalar dt)
 {
+    before_.assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
     if (viscous_)
     {
         List<vec4> dtA(a);
@@ -116,6 +123,23 @@ void projectionStep::leaveOutGiven(const stencil& s, scalar dt, List<scalar>& di
         if (s.cloud.uFixed[i]) div[i] -= found[i];
 }
 
+// What mirrors in walls have more of the step's change than the walls' own velocity.  The first step changes all
+void projectionStep::mirrorChange(const stencil& s, List<scalar>& div) const
+{
+    const particleCloud& cloud = s.cloud;
+    if (!cloud.hasRigid()) return;
+    List<vec4> change(cloud.Up);
+    if (behind(cloud) > 0)
+    {
+        for (label i = 0; i < cloud.n(); ++i) change[i].s -= before_[i].s;
+        for (label g = cloud.n(); g < cloud.nAll(); ++g)
+            if (cloud.ghostSource(g) < 0) change[g].setXyz(cloud.ghostGained(g));
+    }
+    const List<scalar> more = sphc::div(s, change, schemes_.divergence, pairFilter::walls);
+    for (label i = 0; i < cloud.n(); ++i)
+        if (!cloud.uFixed[i]) div[i] += more[i];
+}
+
 void projectionStep::project(particleCloud& cloud, const stencil& s, const List<scalar>& q,
                              scalar cellSize, scalar dt)
 {
@@ -123,8 +147,9 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
     const List<vec4> given = addGivenGradient(cloud, dt);
     cloud.fillContinuityGhosts(cloud.Up);
     List<scalar> f = sphc::div(s, cloud.Up, schemes_.divergence);
+    mirrorChange(s, f);
     if (!given.empty()) leaveOutGiven(s, dt, f);
-    const bool first = !cloud.history.count(projected);
+    const bool first = !(behind(cloud) > 0);
     const List<scalar> loses =
         leaves_ > 0 || first ? sphc::gradSquaredTrace(s, cloud.Up) : List<scalar>();
     for (label i = 0; i < label(given.size()); ++i)
@@ -148,11 +173,11 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
         for (label i = begin; i < end; ++i)
             if (!cloud.uFixed[i]) cloud.Up[i].s -= dt / rho_ * gradP[i].s;
     });
+    cloud.history[projected] = {dt};
     if (!first) return;
     addWay(1 - leaves_);
     solvePressure(cloud, f, cellSize, dt);
     for (label i = 0; i < n; ++i) cloud.Up[i][3] = p_[i];
-    cloud.history[projected] = {1};
 }
 
 // p_ of -lap p = f, from the p_ that it finds

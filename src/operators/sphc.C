@@ -10,18 +10,21 @@ namespace ispf
 namespace
 {
 
-constexpr simd4 rigidWeight = {2, 2, 2, 0};
+constexpr simd4 withoutPressure = {1, 1, 1, 0};
 constexpr scalar singular = 0.02;  // determinant of a correction moment
 
-// Neighbours of other phases
-ISPF_INLINE void addOthers(pairSums& sums, const stencil& s, const vec4* phi, label i)
+// Neighbours of other phases, or of walls alone
+ISPF_INLINE void addOthers(pairSums& sums, const stencil& s, const vec4* phi, label i,
+                           pairFilter filter)
 {
     for (std::int64_t k = s.list.mid[i]; k < s.list.start[i + 1]; ++k)
     {
         const label j = s.list.index[k];
+        const bool rigid = s.cloud.phase[j] == phaseType::rigid;
+        if (filter == pairFilter::walls && !rigid) continue;
         const simd4 g = s.list.F[k] * (s.cloud.x[i].s - s.cloud.x[j].s);
         simd4 e = phi[j].s - phi[i].s;
-        if (s.cloud.phase[j] == phaseType::rigid) e *= rigidWeight;
+        if (rigid) e *= withoutPressure;
         sums.gx += e * g[0], sums.gy += e * g[1], sums.gz += e * g[2];
         sums.lap += s.list.F[k] * e;
     }
@@ -30,8 +33,9 @@ ISPF_INLINE void addOthers(pairSums& sums, const stencil& s, const vec4* phi, la
 ISPF_INLINE pairSums rowSums(const stencil& s, const vec4* phi, label i, pairFilter filter)
 {
     pairSums sums;
-    sums.add(s.list, s.cloud.x.data(), phi, i, s.list.start[i], s.list.mid[i]);
-    if (filter == pairFilter::all) addOthers(sums, s, phi, i);
+    if (filter != pairFilter::walls)
+        sums.add(s.list, s.cloud.x.data(), phi, i, s.list.start[i], s.list.mid[i]);
+    if (filter != pairFilter::samePhase) addOthers(sums, s, phi, i, filter);
     return sums;
 }
 
@@ -150,7 +154,7 @@ void symmetrise(const stencil& s, const vec4* phi, pairFilter filter, label begi
 List<scalar> sphc::div(const stencil& s, const List<vec4>& phi, divergenceScheme scheme,
                        pairFilter filter)
 {
-    const List<tensor>& B = filter == pairFilter::all ? s.B.all : s.B.same;
+    const List<tensor>& B = filter == pairFilter::samePhase ? s.B.same : s.B.all;
     const tensor* correction = scheme == divergenceScheme::corrected ? B.data() : nullptr;
     List<scalar> result(s.cloud.n());
     parallelFor(s.cloud.n(), [&](label begin, label end) {

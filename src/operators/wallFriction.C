@@ -57,8 +57,7 @@ struct view
 
 void makeShearExact(particleCloud& cloud, const neighbourList& list)
 {
-    const auto ghosts = cloud.phase.begin() + cloud.n();
-    if (std::find(ghosts, cloud.phase.end(), phaseType::rigid) == cloud.phase.end()) return;
+    if (!cloud.hasRigid()) return;
     List<scalar> scale(cloud.n(), 1);
     const view v{cloud, list};
     parallelFor(cloud.n(), [&](label begin, label end) {

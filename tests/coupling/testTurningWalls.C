@@ -61,6 +61,15 @@ vector turning(const vector& x)
     return omega * vector(0, 0, 1).cross(x - centre);
 }
 
+scalar slope(const List<scalar>& x, const List<scalar>& y)
+{
+    scalar sx = 0, sy = 0, sxx = 0, sxy = 0;
+    const scalar n = scalar(x.size());
+    for (size_t k = 0; k < x.size(); ++k)
+        sx += x[k], sy += y[k], sxx += x[k] * x[k], sxy += x[k] * y[k];
+    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
 scalar worstDeviation(const particleCloud& cloud)
 {
     scalar worst = 0;
@@ -107,6 +116,51 @@ TEST_CASE("a square vessel that turns with its fluid, with both couplings")
             CHECK(std::abs(p[1] / n[1] - p[0] / n[0]) <
                   0.05 * 0.5 * 1000 * std::pow(omega * 8 * dx, 2));
         }
+}
+
+TEST_CASE("vessels of rigid particles that speed up or turn push their fluid in every step")
+{
+    constexpr scalar a = 0.4, dt = 2e-3;
+    for (const bool turns : {false, true})
+    {
+        CAPTURE(turns);
+        caseOnDisk files("pushed");
+        files.solution = "coupling projection; shifting { type none; }";
+        files.boundary =
+            word("drum { type wall; motion { ") +
+            (turns ? "rotation { origin (8e-3 8e-3 0); axis (0 0 1); omega 5; }"
+                   : "direction (1 0 0); displacement polynomial ((0.2 2));") + " } }";
+        files.properties = "rho 1000; mu 1e-4;";
+        files.fill(16, 16, dx);
+        for (size_t i = 0; i < files.particles().x.size() && turns; ++i)
+            files.particles().vectors["U"][i] = turning(files.particles().x[i]);
+        files.write(), writeSurface(square(), files), writeWallParticles(files);
+        capturedLog log;
+        Time time(files.path());
+        fsiCase c(time);
+        const auto scheme = couplingScheme::New(c);
+        for (int n = 1; n < 6; ++n)
+        {
+            CAPTURE(n);
+            runSteps(c, *scheme, dt, 1);
+            // the vessel's mean velocity over the step, and what it has gained since the one before
+            const scalar speed = a * (n - 0.5) * dt, gain = n == 1 ? a / 2 : a;
+            scalar worst = 0;
+            List<scalar> ours, exact;
+            for (label i = 0; i < c.cloud.n(); ++i)
+            {
+                const vector x = c.cloud.x[i].xyz(),
+                             u = turns ? turning(x) : vector(speed, 0, 0);
+                worst = std::max(worst, (c.cloud.Up[i].xyz() - u).norm());
+                ours.push_back(c.cloud.Up[i][3]);
+                exact.push_back(1000 * (turns ? 0.5 * omega * omega * (x - centre).squaredNorm()
+                                              : -gain * x[0]));
+            }
+            CHECK(worst < (turns ? 0.02 * omega * 8 * dx : 0.08 * a * dt));
+            if (turns && n == 1) continue;  // how the wall's velocity turned before is not known
+            CHECK(slope(exact, ours) == doctest::Approx(1).epsilon(0.05));
+        }
+    }
 }
 
 TEST_CASE("a vessel that turns and travels with its fluid and a solid clamped to it")

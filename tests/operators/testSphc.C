@@ -120,3 +120,35 @@ TEST_CASE("operators do not depend on the number of threads")
     for (size_t i = 0; i < grad[0].size(); ++i)
         for (int c = 0; c < 3; ++c) REQUIRE(grad[0][i][c] == grad[1][i][c]);
 }
+
+TEST_CASE("a flow that sticks to a wall has no divergence next to it")
+{
+    // u = y (x, -y/2): shear that grows along the wall y = 0
+    constexpr scalar dx = 0.1;
+    particleCloud cloud;
+    cloud.nDims = 2, cloud.dx = dx;
+    cloud.zones = {{"fluid", phaseType::fluid, false}};
+    for (int row = 0; row < 8; ++row)
+        for (int column = -10; column < 10; ++column)
+        {
+            const scalar x = (column + 0.5) * dx, y = (row + 0.5) * dx;
+            cloud.append({x, y, 0}, 0, vec4::from({x * y, -0.5 * y * y, 0}), cloud.nextId());
+        }
+    for (int row = 0; row < 3; ++row)
+        for (int column = -10; column < 10; ++column)
+            cloud.addRigid({(column + 0.5) * dx, -(row + 0.5) * dx, 0}, {0, 0, 0});
+    neighbourList list;
+    kernelCorrection B;
+    list.build(cloud, *smoothingKernel::New("WendlandC2", 2, 1.3 * dx)), B.build(cloud, list);
+    cloud.fillGhosts(cloud.Up, false);
+    const List<scalar> all = sphc::div({cloud, list, B}, cloud.Up, divergenceScheme::corrected);
+    const List<scalar> walls =
+        sphc::div({cloud, list, B}, cloud.Up, divergenceScheme::corrected, pairFilter::walls);
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        if (std::abs(cloud.x[i][0]) > 7 * dx || cloud.x[i][1] > 5 * dx) continue;  // beside the ends
+        CHECK(std::abs(all[i]) < 0.025 * dx);
+        if (cloud.x[i][1] < 2 * dx) CHECK(all[i] + walls[i] < -0.03 * dx);  // mirrored
+        if (cloud.x[i][1] > 3 * dx) CHECK(walls[i] == 0);
+    }
+}
