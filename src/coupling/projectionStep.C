@@ -140,15 +140,23 @@ void projectionStep::mirrorChange(const stencil& s, List<scalar>& div) const
         if (!cloud.uFixed[i]) div[i] += more[i];
 }
 
+// div u* as the pressure's Laplacian answers it
+List<scalar> projectionStep::divergence(particleCloud& cloud, const stencil& s, scalar dt,
+                                        bool anyGiven) const
+{
+    cloud.fillContinuityGhosts(cloud.Up);
+    List<scalar> div = sphc::div(s, cloud.Up, schemes_.divergence);
+    mirrorChange(s, div);
+    if (anyGiven) leaveOutGiven(s, dt, div);
+    return div;
+}
+
 void projectionStep::project(particleCloud& cloud, const stencil& s, const List<scalar>& q,
                              scalar cellSize, scalar dt)
 {
     const label n = cloud.n();
     const List<vec4> given = addGivenGradient(cloud, dt);
-    cloud.fillContinuityGhosts(cloud.Up);
-    List<scalar> f = sphc::div(s, cloud.Up, schemes_.divergence);
-    mirrorChange(s, f);
-    if (!given.empty()) leaveOutGiven(s, dt, f);
+    List<scalar> f = divergence(cloud, s, dt, !given.empty());
     const bool first = !(behind(cloud) > 0);
     const List<scalar> loses =
         leaves_ > 0 || first ? sphc::gradSquaredTrace(s, cloud.Up) : List<scalar>();
@@ -163,28 +171,32 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
     if (leaves_ > 0) addWay(leaves_);
 
     sphm::laplacian(s, equation_);
-    p_.resize(n);
-    for (label i = 0; i < n; ++i) p_[i] = cloud.pFixed[i] ? cloud.pGiven[i] : cloud.Up[i][3];
     solvePressure(cloud, f, cellSize, dt);
-    for (label i = 0; i < n; ++i) cloud.Up[i][3] = p_[i];
-    cloud.fillGhosts(cloud.Up, false);
-    const List<vec4> gradP = sphc::grad(s, cloud.Up, schemes_.gradient);
-    parallelFor(n, [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-            if (!cloud.uFixed[i]) cloud.Up[i].s -= dt / rho_ * gradP[i].s;
-    });
+    correct(cloud, s, dt);
     cloud.history[projected] = {dt};
     if (!first) return;
     addWay(1 - leaves_);
     solvePressure(cloud, f, cellSize, dt);
-    for (label i = 0; i < n; ++i) cloud.Up[i][3] = p_[i];
 }
 
-// p_ of -lap p = f, from the p_ that it finds
-void projectionStep::solvePressure(const particleCloud& cloud, const List<scalar>& f,
+void projectionStep::correct(particleCloud& cloud, const stencil& s, scalar dt) const
+{
+    cloud.fillGhosts(cloud.Up, false);
+    const List<vec4> gradP = sphc::grad(s, cloud.Up, schemes_.gradient);
+    parallelFor(cloud.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            if (!cloud.uFixed[i]) cloud.Up[i].s -= dt / rho_ * gradP[i].s;
+    });
+}
+
+// p of -lap p = f, from the p that it finds
+void projectionStep::solvePressure(particleCloud& cloud, const List<scalar>& f,
                                    scalar cellSize, scalar dt)
 {
     equation_.setSource(f);
+    p_.resize(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i)
+        p_[i] = cloud.pFixed[i] ? cloud.pGiven[i] : cloud.Up[i][3];
     const List<vector> x = points(cloud);
     const solverPerformance result = pressureSolver_->solve(
         {equation_.A, true, &x, cellSize, nullptr, floor(cloud, dt)}, equation_.source, p_);
@@ -195,6 +207,7 @@ void projectionStep::solvePressure(const particleCloud& cloud, const List<scalar
             cloud.describe(worstRow(equation_.A, equation_.source, p_)) + ": " + result.line() +
             ". Raise maxIter in solvers.p of system/sphSolution, or reduce deltaT, and "
             "see whether a load or a motion jumps; the last written time is intact");
+    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] = p_[i];
 }
 
 void projectionStep::printContinuityErrors(particleCloud& cloud, const stencil& s,
