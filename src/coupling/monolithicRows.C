@@ -35,13 +35,14 @@ ISPF_INLINE simd4 wallShare(const view& v, label i)
     return sum;
 }
 
-// What images of curved walls have too much
-ISPF_INLINE simd4 volumeShare(const view& v, label i)
+// What images count more or less than in continuity
+ISPF_INLINE simd4 imageShare(const view& v, label i)
 {
     simd4 sum = {};
     for (std::int64_t k = v.first(i); k < v.last(i); ++k)
-        if (const label j = v.list.index[k]; j >= v.cloud.n())
-            sum += (sphc::viscousF(v.cloud, v.list, k) - v.list.F[k]) * (v.phi[j].s - v.phi[i].s);
+        if (const label j = v.list.index[k]; j >= v.cloud.n() && v.cloud.ghostSource(j) >= 0)
+            sum += (v.cloud.friction(i, j) * sphc::viscousF(v.cloud, v.list, k) - v.list.F[k]) *
+                   (v.phi[j].s - v.phi[i].s);
     return sum;
 }
 
@@ -56,7 +57,7 @@ ISPF_HOT void firstRange(const view& v, label begin, label end, vec4* gp, vec4* 
         sums.add(v.list, v.x, v.phi, i, v.mid(i), v.last(i));
         gp[i] = vec4::from(gradient, sums.divergence(v.B.all[i]));
         lap[i].s = v.c[i] * (sums.lap + wallShare(v, i));
-        if (v.cloud.stretched()) lap[i].s += v.c[i] * volumeShare(v, i);
+        if (v.cloud.weighsImages()) lap[i].s += v.c[i] * imageShare(v, i);
     }
 }
 
@@ -121,7 +122,8 @@ ISPF_HOT void viscousRange(const view& v, label begin, label end, vec4* out)
     {
         simd4 sum = {};
         for (std::int64_t k = v.first(i); k < v.last(i); ++k)
-            sum += sphc::viscousF(v.cloud, v.list, k) * v.phi[v.list.index[k]].s;
+            if (const label j = v.list.index[k]; v.cloud.ownerOf(j) >= 0)  // else zero
+                sum += v.cloud.friction(i, j) * sphc::viscousF(v.cloud, v.list, k) * v.phi[j].s;
         out[i].s = v.c[i] * sum;
     }
 }
@@ -167,11 +169,7 @@ void monolithicRows::setup(const particleCloud& cloud, const neighbourList& list
         {
             scalar sum = 0;
             for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
-            {
-                const label j = list.index[k];
-                sum += sphc::viscousF(cloud, list, k) *
-                       (cloud.phase[j] == phaseType::rigid ? cloud.wallFactor(i, j) : 1);
-            }
+                sum += cloud.friction(i, list.index[k]) * sphc::viscousF(cloud, list, k);
             sumF_[i] = scale_[i] * sum;
         }
     });

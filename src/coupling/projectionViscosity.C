@@ -56,11 +56,8 @@ public:
             {
                 scalar sum = 0;
                 for (auto k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
-                {
-                    const label j = s.list.index[k];
-                    sum += (s.cloud.phase[j] == phaseType::rigid ? s.cloud.wallFactor(i, j) : 1) *
+                    sum += s.cloud.friction(i, s.list.index[k]) *
                            sphc::viscousF(s.cloud, s.list, k);
-                }
                 inverse_[i] = s.cloud.uFixed[i] ? 1 : 1 / (1 - 2 * dtNu * sum);
             }
         });

@@ -40,9 +40,10 @@ scalar dissipationOf(const presentState& s, scalar mu)
             {
                 const label j = s.list.index[k];
                 const bool rigid = cloud.phase[j] == phaseType::rigid;
-                const scalar both = rigid ? 4 * c[i] * cloud.wallFactor(i, j) : c[i] + c[j];
+                const scalar both = rigid ? 4 * c[i] : c[i] + c[j];
                 const vector e = cloud.Up[i].xyz() - cloud.Up[j].xyz();
-                part -= sphc::viscousF(cloud, s.list, k) * both * e.squaredNorm();
+                part -= cloud.friction(i, j) * sphc::viscousF(cloud, s.list, k) * both *
+                        e.squaredNorm();
             }
         return part;
     });

@@ -57,16 +57,15 @@ ISPF_HOT void laplacianRange(const stencil& s, const vec4* phi, const scalar* c,
         const simd4 own = phi[i].s;
         simd4 sum = {};
         for (std::int64_t k = s.list.start[i]; k < s.list.mid[i]; ++k)
-            sum +=
-                sphc::viscousF(s.cloud, s.list, k) * (c[i] + c[index[k]]) * (own - phi[index[k]].s);
+            sum += s.cloud.friction(i, index[k]) * sphc::viscousF(s.cloud, s.list, k) *
+                   (c[i] + c[index[k]]) * (own - phi[index[k]].s);
         const std::int64_t last = filter == pairFilter::all ? s.list.start[i + 1] : s.list.mid[i];
         for (std::int64_t k = s.list.mid[i]; k < last; ++k)
         {
             const label j = index[k];
             const bool rigid = s.cloud.phase[j] == phaseType::rigid;
-            const simd4 e = sphc::viscousF(s.cloud, s.list, k) * (c[i] + (rigid ? c[i] : c[j])) *
-                            (own - phi[j].s);
-            sum += rigid ? s.cloud.wallFactor(i, j) * e : e;
+            sum += s.cloud.friction(i, j) * sphc::viscousF(s.cloud, s.list, k) *
+                   (c[i] + (rigid ? c[i] : c[j])) * (own - phi[j].s);
         }
         result[i].s = sum;
     }

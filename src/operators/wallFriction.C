@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wallFriction.H"
-#include "parallel.H"
+#include "sphc.H"
 
 #include <algorithm>
 
@@ -36,7 +36,7 @@ struct view
                                                         : vector(vector::Zero());
     }
 
-    scalar shearExact(label i) const
+    scalar atRigid(label i) const
     {
         const vector n = away(i);
         if (n.isZero(0)) return 1;
@@ -51,19 +51,60 @@ struct view
                 fluid += list.F[k] * n.dot(cloud.x[i].xyz() - cloud.x[j].xyz());
         return wall < 0 ? std::clamp(-fluid / wall, 0.5, 2.0) : 1;
     }
+
+    bool seesRigid(label i) const
+    {
+        bool any = false;
+        forRigid(i, [&](label, scalar) { any = true; });
+        return any;
+    }
+
+    // Place in the list of the particle's image in a wall, -1: none or several
+    std::int64_t ownImage(label i) const
+    {
+        std::int64_t found = -1;
+        for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
+        {
+            const label j = list.index[k];
+            if (j < cloud.n() || cloud.ghostSource(j) != i || !cloud.sticks(j)) continue;
+            if (found >= 0) return -1;
+            found = k;
+        }
+        return found;
+    }
+
+    scalar atImage(label i, std::int64_t image) const
+    {
+        const vector n = cloud.x[i].xyz() - cloud.x[list.index[image]].xyz();
+        scalar others = 0;
+        for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
+            if (k != image)
+                others += sphc::viscousF(cloud, list, k) *
+                          n.dot(cloud.x[i].xyz() - cloud.x[list.index[k]].xyz());
+        const scalar own = sphc::viscousF(cloud, list, image) * n.squaredNorm();
+        return own < 0 ? std::clamp(-others / own, 0.25, 4.0) : 1;
+    }
 };
 
 }  // namespace
 
 void makeShearExact(particleCloud& cloud, const neighbourList& list)
 {
-    if (!cloud.hasRigid()) return;
+    bool mirrors = false;
+    for (label g = cloud.n(); g < cloud.nAll() && !mirrors; ++g) mirrors = cloud.sticks(g);
+    if (!mirrors && !cloud.hasRigid()) return;
     List<scalar> scale(cloud.n(), 1);
+    List<label> image(mirrors ? cloud.n() : 0, -1);
     const view v{cloud, list};
     parallelFor(cloud.n(), [&](label begin, label end) {
-        for (label i = std::max(begin, cloud.nSolid()); i < end; ++i) scale[i] = v.shearExact(i);
+        for (label i = std::max(begin, cloud.nSolid()); i < end; ++i)
+        {
+            const std::int64_t own = mirrors ? v.ownImage(i) : -1;
+            if (own < 0) scale[i] = v.atRigid(i);
+            else if (!v.seesRigid(i)) image[i] = list.index[own], scale[i] = v.atImage(i, own);
+        }
     });
-    cloud.scaleWallFactor(std::move(scale));
+    cloud.scaleFriction(std::move(scale), std::move(image));
 }
 
 }  // namespace ispf

@@ -93,7 +93,7 @@ void particleCloud::clearGhosts()
 {
     x.resize(n_), Up.resize(n_), phase.resize(n_);
     source_.clear(), rule_.clear(), offset_.clear(), through_.clear(), depth_.clear();
-    wallScale_.clear();
+    wallScale_.clear(), ownImage_.clear();
     volume_.clear(), stretched_ = false;
     rules_.clear();
 }

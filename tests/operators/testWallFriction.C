@@ -14,8 +14,15 @@ namespace
 
 constexpr scalar dx = 0.1;
 
+enum class wallOf
+{
+    rigid,
+    rigidWithoutFeet,  // as if the surface were not known
+    images
+};
+
 // Fluid in no order before a wall that follows the velocity u = x, in which every shear and stretch is.  radius: of the
-// circle that the wall is round the fluid, 0 for the plane y = 0.  feet: whether those of the rigid particles are known
+// circle that the wall is round the fluid, 0 for the plane y = 0
 struct wallScene
 {
     particleCloud cloud;
@@ -23,7 +30,7 @@ struct wallScene
     kernelCorrection B;
     scalar radius;
 
-    wallScene(scalar circle, bool feet) : radius(circle)
+    wallScene(scalar circle, wallOf kind) : radius(circle)
     {
         cloud.nDims = 2, cloud.dx = dx;
         cloud.zones = {{"fluid", phaseType::fluid, false}};
@@ -35,11 +42,12 @@ struct wallScene
                 const scalar x = column * dx + shift(random), y = (row + 0.5) * dx + shift(random);
                 cloud.append(at(x, y), 0, vec4{}, cloud.nextId());
             }
-        for (int row = 0; row < 3; ++row)
+        if (kind == wallOf::images) addImages();
+        for (int row = 0; row < 3 && kind != wallOf::images; ++row)
             for (int column = 0; column < columns; ++column)
             {
                 const vector x = at(column * dx, -(row + 0.5) * dx), foot = at(column * dx, 0);
-                if (feet) cloud.addRigid(x, foot, foot);
+                if (kind == wallOf::rigid) cloud.addRigid(x, foot, foot);
                 else cloud.addRigid(x, foot);
             }
         list.build(cloud, *smoothingKernel::New("WendlandC2", 2, 1.3 * dx));
@@ -57,7 +65,7 @@ struct wallScene
         for (label i = 0; i < columns; ++i)
         {
             if (radius == 0 && (i % columns < 4 || i % columns >= columns - 4)) continue;
-            vector n = vector::Zero();
+            vector n = cloud.hasRigid() ? vector(vector::Zero()) : away(i);
             for (auto k = list.mid[i]; k < list.start[i + 1]; ++k)
                 if (const label j = list.index[k]; cloud.phase[j] == phaseType::rigid)
                     n -= list.F[k] * cloud.ghostDepth(j).xyz();
@@ -68,6 +76,27 @@ struct wallScene
 
 private:
     static constexpr int columns = 50;
+
+    vector away(label i) const
+    {
+        return radius == 0 ? vector(0, 1, 0) : vector(-cloud.x[i].xyz().normalized());
+    }
+
+    // u = x of what is mirrored becomes 2 foot - x
+    void addImages()
+    {
+        Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
+        M.topLeftCorner<3, 3>() *= -1;
+        for (label i = 0; i < cloud.n(); ++i)
+        {
+            const vector x = cloud.x[i].xyz(), n = away(i);
+            const scalar d = radius == 0 ? x[1] : radius - x.norm();
+            const scalar volume = radius == 0 ? 1 : (radius + d) / (radius - d);
+            const vector foot = x - d * n;
+            const label rule = cloud.addRule(M, tensor::Identity() - 2 * n * n.transpose());
+            cloud.addMirror({i, rule, volume}, x - 2 * d * n, vec4::from(2 * foot), {0, 0, 0});
+        }
+    }
 
     // x along the wall, y into the fluid
     vector at(scalar x, scalar y) const
@@ -84,22 +113,24 @@ TEST_CASE(
     "viscosity leaves linear flow along a wall without a force, whatever the order of the "
     "particles")
 {
-    for (const scalar radius : {0.0, 0.8})
-    {
-        CAPTURE(radius);
-        wallScene s(radius, true);
-        CHECK(s.force() > 0.1);
-        makeShearExact(s.cloud, s.list);
-        CHECK(s.force() < 1e-11);
-        s.cloud.clearGhosts();
-        CHECK(s.cloud.nAll() == s.cloud.n());
-    }
+    for (const wallOf kind : {wallOf::rigid, wallOf::images})
+        for (const scalar radius : {0.0, 0.8})
+        {
+            CAPTURE(radius);
+            CAPTURE(int(kind));
+            wallScene s(radius, kind);
+            CHECK(s.force() > 0.1);
+            makeShearExact(s.cloud, s.list);
+            CHECK(s.force() < 1e-11);
+            s.cloud.clearGhosts();
+            CHECK(s.cloud.nAll() == s.cloud.n());
+        }
 }
 
 TEST_CASE(
     "a wall whose surface is not known is left as it is, and one that is not there costs nothing")
 {
-    wallScene s(0, false);
+    wallScene s(0, wallOf::rigidWithoutFeet);
     makeShearExact(s.cloud, s.list);
     for (label i = 0; i < s.cloud.n(); ++i)
         for (auto k = s.list.mid[i]; k < s.list.start[i + 1]; ++k)
@@ -108,8 +139,8 @@ TEST_CASE(
 
 TEST_CASE("the number of a row is held within a half and two")
 {
-    wallScene s(0, true);
-    const wallScene plain(0, true);
+    wallScene s(0, wallOf::rigid);
+    const wallScene plain(0, wallOf::rigid);
     makeShearExact(s.cloud, s.list);
     scalar least = 1, most = 1;
     for (label i = 0; i < s.cloud.n(); ++i)
