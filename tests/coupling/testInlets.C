@@ -60,10 +60,10 @@ TEST_CASE("a parabolic inlet: Poiseuille's profile and pressure drop")
             r.run(dt, label(0.45 / dt));
             scalar worst = 0, flux = 0;
             slices s;
-            for (int k = 0; k < 50; ++k)
+            for (int k = 0; k < 200; ++k)
             {
                 r.run(dt, 5), s.add(r.c, L);
-                flux += r.c.walls->balance()[1].flux / 50;
+                flux += r.c.walls->balance()[1].flux / 200;
                 for (label i = 0; i < r.c.cloud.n(); ++i)
                 {
                     const vec4 &x = r.c.cloud.x[i], &u = r.c.cloud.Up[i];
