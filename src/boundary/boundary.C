@@ -8,11 +8,21 @@ namespace ispf
 
 boundary::~boundary() = default;
 
-void boundary::setStep(scalar t0, scalar t1, scalar behind)
+void boundary::setStep(scalar t0, scalar t1)
 {
     content_->t0 = t0;
-    content_->walls.setStep(t0, t1, behind), content_->group.setTime(t1);
+    content_->walls.setStep(t0, t1), content_->group.setTime(t1);
     content_->setStep(t0, t1);
+}
+
+void boundary::keepVelocities(particleCloud& cloud) const
+{
+    content_->walls.keepVelocities(cloud);
+}
+
+void boundary::recallVelocities(const particleCloud& cloud, scalar behind)
+{
+    content_->walls.recallVelocities(cloud, behind);
 }
 
 void boundary::setStepBehind(scalar t0, scalar t1)

@@ -52,12 +52,11 @@ wall wall::New(const word& name, const dictionary& dict, const word& caseFolder)
     return w;
 }
 
-void wall::setStep(scalar t0, scalar t1, scalar stepBehind)
+void wall::setStep(scalar t0, scalar t1)
 {
     moveTo(t0), after = motion.frame(t1);
     surfaceVelocity = motion.surfaceVelocity(t0, t1), velocity = motion.velocity(t0, t1);
-    behind = stepBehind;
-    if (behind > 0) velocityBefore = motion.velocity(t0 - behind, t0);
+    behind = 0;
 }
 
 vector wall::gained(const vector& x) const

@@ -231,7 +231,8 @@ void fsiCase::countStrays()
 
 void fsiCase::updateNeighbours(scalar t0, scalar t1, scalar behind)
 {
-    walls->setStep(t0, t1, behind);
+    walls->setStep(t0, t1);
+    if (behind > 0) walls->recallVelocities(cloud, behind);
     carrySolids();
     sortParticles();
     bodyForce = bodyForceAt(0.5 * (t0 + t1));

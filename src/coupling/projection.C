@@ -180,6 +180,7 @@ void projection::step(scalar t, scalar dt)
     shifting_.shift(cloud, c_.list, c_.correction, dt,
                     [&](label i) { return c_.walls->nearOpen(i); });
     move(before, dt);
+    c_.walls->keepVelocities(cloud);
     c_.walls->exchange(cloud, t + dt);
     if (c_.structure && c_.time.writeTime()) limits_.keep(cloud);
 }

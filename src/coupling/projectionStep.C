@@ -11,8 +11,6 @@ namespace ispf
 namespace
 {
 
-const word projected = "projected";  // entry of cloud.history: length of the last step
-
 const char* const defaultPressureSolver =
     "solver PCG; preconditioner multigrid; tolerance 1e-6; relTol 0; maxIter 200;";
 
