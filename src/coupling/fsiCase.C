@@ -229,10 +229,9 @@ void fsiCase::countStrays()
     if (n != before) cloud.history["strays"] = {scalar(n)};
 }
 
-void fsiCase::updateNeighbours(scalar t0, scalar t1, scalar behind)
+void fsiCase::updateNeighbours(scalar t0, scalar t1)
 {
     walls->setStep(t0, t1);
-    if (behind > 0) walls->recallVelocities(cloud, behind);
     carrySolids();
     sortParticles();
     bodyForce = bodyForceAt(0.5 * (t0 + t1));

@@ -11,8 +11,27 @@ namespace ispf
 namespace
 {
 
+const word projected = "projected";  // entry of cloud.history, after the first step
+
+// Cell Reynolds number at which half of u^n is mirrored in walls
+constexpr scalar smoothed = 10;
+
 const char* const defaultPressureSolver =
     "solver PCG; preconditioner multigrid; tolerance 1e-6; relTol 0; maxIter 200;";
+
+// Largest, of what sees rigid particles, relative to them
+scalar speedAlongWalls(const stencil& s)
+{
+    const particleCloud& cloud = s.cloud;
+    return std::sqrt(maxOf(cloud.n(), [&](label begin, label end) {
+        scalar m = 0;
+        for (label i = begin; i < end; ++i)
+            for (std::int64_t k = s.list.mid[i]; k < s.list.start[i + 1]; ++k)
+                if (const label j = s.list.index[k]; cloud.phase[j] == phaseType::rigid)
+                    m = std::max(m, (cloud.Up[i].xyz() - cloud.Up[j].xyz()).squaredNorm());
+        return m;
+    }));
+}
 
 scalar maxSpeed(const particleCloud& cloud)
 {
@@ -45,12 +64,6 @@ projectionStep::projectionStep(scalar rho, scalar mu, const word& viscosity,
         "p", p.empty() ? dictionary::fromString(defaultPressureSolver, "default of solvers.p") : p);
     if (viscosity == "implicit")
         viscous_ = std::make_unique<projectionViscosity>(solvers.subOrEmptyDict("U"));
-}
-
-scalar projectionStep::behind(const particleCloud& cloud)
-{
-    const auto found = cloud.history.find(projected);
-    return found == cloud.history.end() ? 0 : found->second[0];
 }
 
 void projectionStep::predict(particleCloud& cloud, const stencil& s, const List<vec4>& a, scalar dt)
@@ -121,21 +134,17 @@ void projectionStep::leaveOutGiven(const stencil& s, scalar dt, List<scalar>& di
         if (s.cloud.uFixed[i]) div[i] -= found[i];
 }
 
-// What mirrors in walls have more of the step's change than the walls' own velocity.  The first step changes all
-void projectionStep::mirrorChange(const stencil& s, List<scalar>& div) const
+// All of what the step adds to u, and a part of what was there
+List<vec4> projectionStep::toBeMirrored(const stencil& s) const
 {
     const particleCloud& cloud = s.cloud;
-    if (!cloud.hasRigid()) return;
-    List<vec4> change(cloud.Up);
-    if (behind(cloud) > 0)
-    {
-        for (label i = 0; i < cloud.n(); ++i) change[i].s -= before_[i].s;
-        for (label g = cloud.n(); g < cloud.nAll(); ++g)
-            if (cloud.ghostSource(g) < 0) change[g].setXyz(cloud.ghostGained(g));
-    }
-    const List<scalar> more = sphc::div(s, change, schemes_.divergence, pairFilter::walls);
-    for (label i = 0; i < cloud.n(); ++i)
-        if (!cloud.uFixed[i]) div[i] += more[i];
+    List<vec4> u(cloud.Up);
+    if (!cloud.history.count(projected)) return u;
+    const scalar Re = speedAlongWalls(s) * cloud.dx,
+                 mirrored = nu_ > 0 ? Re / (Re + smoothed * nu_) : 1;
+    for (label i = 0; i < cloud.n(); ++i) u[i].s -= (1 - mirrored) * before_[i].s;
+    for (label g = cloud.n(); g < cloud.nAll(); ++g) u[g].s *= mirrored;
+    return u;
 }
 
 // div u* as the pressure's Laplacian answers it
@@ -144,7 +153,10 @@ List<scalar> projectionStep::divergence(particleCloud& cloud, const stencil& s, 
 {
     cloud.fillContinuityGhosts(cloud.Up);
     List<scalar> div = sphc::div(s, cloud.Up, schemes_.divergence);
-    mirrorChange(s, div);
+    const List<scalar> reflected =
+        sphc::wallReflection(s, toBeMirrored(s), schemes_.divergence);
+    for (label i = 0; i < cloud.n(); ++i)
+        if (!cloud.uFixed[i]) div[i] += reflected[i];
     if (anyGiven) leaveOutGiven(s, dt, div);
     return div;
 }
@@ -155,7 +167,7 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
     const label n = cloud.n();
     const List<vec4> given = addGivenGradient(cloud, dt);
     List<scalar> f = divergence(cloud, s, dt, !given.empty());
-    const bool first = !(behind(cloud) > 0);
+    const bool first = !cloud.history.count(projected);
     const List<scalar> loses =
         leaves_ > 0 || first ? sphc::gradSquaredTrace(s, cloud.Up) : List<scalar>();
     for (label i = 0; i < label(given.size()); ++i)
@@ -171,7 +183,7 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
     sphm::laplacian(s, equation_);
     solvePressure(cloud, f, cellSize, dt);
     correct(cloud, s, dt);
-    cloud.history[projected] = {dt};
+    cloud.history[projected] = {1};
     if (!first) return;
     addWay(1 - leaves_);
     solvePressure(cloud, f, cellSize, dt);

@@ -13,18 +13,15 @@ namespace
 constexpr simd4 withoutPressure = {1, 1, 1, 0};
 constexpr scalar singular = 0.02;  // determinant of a correction moment
 
-// Neighbours of other phases, or of walls alone
-ISPF_INLINE void addOthers(pairSums& sums, const stencil& s, const vec4* phi, label i,
-                           pairFilter filter)
+// Neighbours of other phases
+ISPF_INLINE void addOthers(pairSums& sums, const stencil& s, const vec4* phi, label i)
 {
     for (std::int64_t k = s.list.mid[i]; k < s.list.start[i + 1]; ++k)
     {
         const label j = s.list.index[k];
-        const bool rigid = s.cloud.phase[j] == phaseType::rigid;
-        if (filter == pairFilter::walls && !rigid) continue;
         const simd4 g = s.list.F[k] * (s.cloud.x[i].s - s.cloud.x[j].s);
         simd4 e = phi[j].s - phi[i].s;
-        if (rigid) e *= withoutPressure;
+        if (s.cloud.phase[j] == phaseType::rigid) e *= withoutPressure;
         sums.gx += e * g[0], sums.gy += e * g[1], sums.gz += e * g[2];
         sums.lap += s.list.F[k] * e;
     }
@@ -33,9 +30,8 @@ ISPF_INLINE void addOthers(pairSums& sums, const stencil& s, const vec4* phi, la
 ISPF_INLINE pairSums rowSums(const stencil& s, const vec4* phi, label i, pairFilter filter)
 {
     pairSums sums;
-    if (filter != pairFilter::walls)
-        sums.add(s.list, s.cloud.x.data(), phi, i, s.list.start[i], s.list.mid[i]);
-    if (filter != pairFilter::samePhase) addOthers(sums, s, phi, i, filter);
+    sums.add(s.list, s.cloud.x.data(), phi, i, s.list.start[i], s.list.mid[i]);
+    if (filter == pairFilter::all) addOthers(sums, s, phi, i);
     return sums;
 }
 
@@ -153,11 +149,70 @@ void symmetrise(const stencil& s, const vec4* phi, pairFilter filter, label begi
 List<scalar> sphc::div(const stencil& s, const List<vec4>& phi, divergenceScheme scheme,
                        pairFilter filter)
 {
-    const List<tensor>& B = filter == pairFilter::samePhase ? s.B.same : s.B.all;
+    const List<tensor>& B = filter == pairFilter::all ? s.B.all : s.B.same;
     const tensor* correction = scheme == divergenceScheme::corrected ? B.data() : nullptr;
     List<scalar> result(s.cloud.n());
     parallelFor(s.cloud.n(), [&](label begin, label end) {
         divRange(s, phi.data(), correction, filter, begin, end, result.data());
+    });
+    return result;
+}
+
+namespace
+{
+
+bool seesRigid(const stencil& s, label i)
+{
+    for (std::int64_t k = s.list.mid[i]; k < s.list.start[i + 1]; ++k)
+        if (s.cloud.phase[s.list.index[k]] == phaseType::rigid) return true;
+    return false;
+}
+
+// grad u of the row's own phase, row: component
+tensor ownGradient(const stencil& s, const vec4* u, label i)
+{
+    const pairSums sums = rowSums(s, u, i, pairFilter::samePhase);
+    tensor grad;
+    for (int a = 0; a < 3; ++a) grad.row(a) = (s.B.same[i] * sums.gradient(a)).transpose();
+    return grad;
+}
+
+// sum_j B_i : e_j (x) g_ij with e_j less than u_j - u_i by what sticks
+scalar reflectionAt(const stencil& s, const vec4* u, const tensor& B, label i)
+{
+    const tensor grad = ownGradient(s, u, i);
+    scalar sum = 0;
+    for (std::int64_t k = s.list.mid[i]; k < s.list.start[i + 1]; ++k)
+    {
+        const label j = s.list.index[k];
+        if (s.cloud.phase[j] != phaseType::rigid) continue;
+        const vector way = s.cloud.x[i].xyz() - s.cloud.x[j].xyz();
+        const vec4& depth = s.cloud.ghostDepth(j);
+        vector e = u[j].xyz() - u[i].xyz();
+        if (depth[3] > 0)
+        {
+            const vector n = depth.xyz();
+            const scalar d = std::max(n.dot(way) - depth[3], 0.0),
+                         along = grad.trace() - n.dot(grad * n);
+            e = (n.dot(e) - 0.5 * d * along) * n;
+        }
+        sum += s.list.F[k] * e.dot(B * way);
+    }
+    return sum;
+}
+
+}  // namespace
+
+List<scalar> sphc::wallReflection(const stencil& s, const List<vec4>& u, divergenceScheme scheme)
+{
+    List<scalar> result(s.cloud.n(), 0);
+    if (!s.cloud.hasRigid()) return result;
+    const tensor one = tensor::Identity();
+    const bool corrected = scheme == divergenceScheme::corrected;
+    parallelFor(s.cloud.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            if (seesRigid(s, i))
+                result[i] = reflectionAt(s, u.data(), corrected ? s.B.all[i] : one, i);
     });
     return result;
 }
