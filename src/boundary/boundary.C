@@ -15,6 +15,16 @@ void boundary::setStep(scalar t0, scalar t1)
     content_->setStep(t0, t1);
 }
 
+void boundary::keepVelocities(particleCloud& cloud) const
+{
+    content_->walls.keepVelocities(cloud);
+}
+
+void boundary::recallVelocities(const particleCloud& cloud, scalar behind)
+{
+    content_->walls.recallVelocities(cloud, behind);
+}
+
 void boundary::setStepBehind(scalar t0, scalar t1)
 {
     setStep(t0, t1);

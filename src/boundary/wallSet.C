@@ -131,6 +131,34 @@ void wallSet::setStep(scalar t0, scalar t1)
     for (wall& w : walls_) w.setStep(t0, t1);
 }
 
+void wallSet::keepVelocities(particleCloud& cloud) const
+{
+    for (const wall& w : walls_)
+    {
+        const word entry = "velocity." + w.name;
+        cloud.history.erase(entry);
+        if (!w.motion.moves() && !w.motion.slides()) continue;
+        List<scalar>& kept = cloud.history[entry];
+        kept.assign(w.velocity.u.begin(), w.velocity.u.end());
+        if (!w.velocity.uniform) kept.insert(kept.end(), w.velocity.L.data(), w.velocity.L.data() + 9);
+    }
+}
+
+void wallSet::recallVelocities(const particleCloud& cloud, scalar behind)
+{
+    for (wall& w : walls_)
+    {
+        const auto kept = cloud.history.find("velocity." + w.name);
+        if (kept == cloud.history.end()) continue;
+        const List<scalar>& v = kept->second;
+        if (v.size() != 3 && v.size() != 12) continue;
+        w.behind = behind;
+        w.velocityBefore.u = vector(v[0], v[1], v[2]);
+        w.velocityBefore.uniform = v.size() < 12;
+        if (!w.velocityBefore.uniform) w.velocityBefore.L = Eigen::Map<const tensor>(&v[3]);
+    }
+}
+
 scalar wallSet::perDepth(const patchSurface& s) const
 {
     if (nDims_ == 3) return 1;
@@ -374,8 +402,8 @@ void wallSet::addRigid(particleCloud& cloud) const
         for (size_t k = 0; k < w.rigid.size(); ++k)
             if (const vector at = w.frame.toSpace(w.rigid[k]); cells.near(at))
             {
-                const vector foot = w.frame.toSpace(w.footOf(k));
-                cloud.addRigid(at, w.velocity.at(w.motion.rotates() ? foot : at), foot);
+                const vector foot = w.frame.toSpace(w.footOf(k)), whose = w.motion.rotates() ? foot : at;
+                cloud.addRigid(at, w.velocity.at(whose), foot, w.gained(whose));
             }
 }
 

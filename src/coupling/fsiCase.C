@@ -229,9 +229,10 @@ void fsiCase::countStrays()
     if (n != before) cloud.history["strays"] = {scalar(n)};
 }
 
-void fsiCase::updateNeighbours(scalar t0, scalar t1)
+void fsiCase::updateNeighbours(scalar t0, scalar t1, scalar behind)
 {
     walls->setStep(t0, t1);
+    if (behind > 0) walls->recallVelocities(cloud, behind);
     carrySolids();
     sortParticles();
     bodyForce = bodyForceAt(0.5 * (t0 + t1));

@@ -183,6 +183,7 @@ void monolithic::accept(const List<scalar>& z, scalar dt)
     particleCloud& cloud = c_.cloud;
     cloud.vectors[oldField].assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
     cloud.history[oldField] = {dt};
+    cloud.history.erase(projected);
     for (label i = 0; i < cloud.n(); ++i)
         cloud.Up[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], z[4 * i + 3]};
 }

@@ -166,7 +166,7 @@ void projection::solve(const stencil& s, scalar dt)
 void projection::step(scalar t, scalar dt)
 {
     printCourant(c_.cloud, dt);
-    c_.updateNeighbours(t, t + dt);
+    c_.updateNeighbours(t, t + dt, projectionStep::behind(c_.cloud));
     hydrostatic_.setStep(t, t + dt);
     slope_ = c_.walls->pressureSlope();
     particleCloud& cloud = c_.cloud;
@@ -180,6 +180,7 @@ void projection::step(scalar t, scalar dt)
     shifting_.shift(cloud, c_.list, c_.correction, dt,
                     [&](label i) { return c_.walls->nearOpen(i); });
     move(before, dt);
+    c_.walls->keepVelocities(cloud);
     c_.walls->exchange(cloud, t + dt);
     if (c_.structure && c_.time.writeTime()) limits_.keep(cloud);
 }

@@ -11,8 +11,6 @@ namespace ispf
 namespace
 {
 
-const word projected = "projected";  // entry of cloud.history, after the first step
-
 // Cell Reynolds number at which half of u^n is mirrored in walls
 constexpr scalar smoothed = 10;
 
@@ -64,6 +62,12 @@ projectionStep::projectionStep(scalar rho, scalar mu, const word& viscosity,
         "p", p.empty() ? dictionary::fromString(defaultPressureSolver, "default of solvers.p") : p);
     if (viscosity == "implicit")
         viscous_ = std::make_unique<projectionViscosity>(solvers.subOrEmptyDict("U"));
+}
+
+scalar projectionStep::behind(const particleCloud& cloud)
+{
+    const auto found = cloud.history.find(projected);
+    return found == cloud.history.end() ? 0 : found->second[0];
 }
 
 void projectionStep::predict(particleCloud& cloud, const stencil& s, const List<vec4>& a, scalar dt)
@@ -134,17 +138,31 @@ void projectionStep::leaveOutGiven(const stencil& s, scalar dt, List<scalar>& di
         if (s.cloud.uFixed[i]) div[i] -= found[i];
 }
 
-// All of what the step adds to u, and a part of what was there
-List<vec4> projectionStep::toBeMirrored(const stencil& s) const
+// What mirrors in walls add to div u*: all of what the step adds to u is seen in them, and a part of what was there.  The
+// first step adds all
+void projectionStep::addReflection(const stencil& s, List<scalar>& div) const
 {
     const particleCloud& cloud = s.cloud;
-    List<vec4> u(cloud.Up);
-    if (!cloud.history.count(projected)) return u;
-    const scalar Re = speedAlongWalls(s) * cloud.dx,
-                 mirrored = nu_ > 0 ? Re / (Re + smoothed * nu_) : 1;
-    for (label i = 0; i < cloud.n(); ++i) u[i].s -= (1 - mirrored) * before_[i].s;
-    for (label g = cloud.n(); g < cloud.nAll(); ++g) u[g].s *= mirrored;
-    return u;
+    if (!cloud.hasRigid()) return;
+    List<vec4> change(cloud.Up), before(cloud.nAll());
+    if (behind(cloud) > 0)
+    {
+        const scalar Re = speedAlongWalls(s) * cloud.dx,
+                     part = nu_ > 0 ? Re / (Re + smoothed * nu_) : 1;
+        for (label i = 0; i < cloud.n(); ++i)
+            change[i].s -= before_[i].s, before[i].s = before_[i].s;
+        cloud.fillContinuityGhosts(before);
+        for (label g = cloud.n(); g < cloud.nAll(); ++g)
+        {
+            if (cloud.ghostSource(g) >= 0) continue;
+            change[g].setXyz(cloud.ghostGained(g));
+            before[g].s -= change[g].s;
+        }
+        for (vec4& u : before) u.s *= part;
+    }
+    const List<scalar> reflected = sphc::wallReflection(s, change, before, schemes_.divergence);
+    for (label i = 0; i < cloud.n(); ++i)
+        if (!cloud.uFixed[i]) div[i] += reflected[i];
 }
 
 // div u* as the pressure's Laplacian answers it
@@ -153,10 +171,7 @@ List<scalar> projectionStep::divergence(particleCloud& cloud, const stencil& s, 
 {
     cloud.fillContinuityGhosts(cloud.Up);
     List<scalar> div = sphc::div(s, cloud.Up, schemes_.divergence);
-    const List<scalar> reflected =
-        sphc::wallReflection(s, toBeMirrored(s), schemes_.divergence);
-    for (label i = 0; i < cloud.n(); ++i)
-        if (!cloud.uFixed[i]) div[i] += reflected[i];
+    addReflection(s, div);
     if (anyGiven) leaveOutGiven(s, dt, div);
     return div;
 }
@@ -167,7 +182,7 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
     const label n = cloud.n();
     const List<vec4> given = addGivenGradient(cloud, dt);
     List<scalar> f = divergence(cloud, s, dt, !given.empty());
-    const bool first = !cloud.history.count(projected);
+    const bool first = !(behind(cloud) > 0);
     const List<scalar> loses =
         leaves_ > 0 || first ? sphc::gradSquaredTrace(s, cloud.Up) : List<scalar>();
     for (label i = 0; i < label(given.size()); ++i)
@@ -183,7 +198,7 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
     sphm::laplacian(s, equation_);
     solvePressure(cloud, f, cellSize, dt);
     correct(cloud, s, dt);
-    cloud.history[projected] = {1};
+    cloud.history[projected] = {dt};
     if (!first) return;
     addWay(1 - leaves_);
     solvePressure(cloud, f, cellSize, dt);

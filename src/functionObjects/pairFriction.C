@@ -86,8 +86,9 @@ public:
             const bool rigid = cloud.phase[j] == phaseType::rigid;
             const scalar both = rigid ? 2 * scale_[i] : scale_[i] + scale_[j];
             const vector xi = cloud.x[i].xyz(), xj = cloud.x[j].xyz();
-            const vector u = cloud.friction(i, j) * (cloud.Up[i].xyz() - cloud.Up[j].xyz()) -
-                             turn_[body] * (xi - xj);
+            const scalar counts = cloud.friction(i, j);
+            const vector u = counts * (cloud.Up[i].xyz() - cloud.Up[j].xyz()) -
+                             (rigid ? cloud.frictionOfRow(i) : counts) * (turn_[body] * (xi - xj));
             loads[body].add(0.5 * (xi + xj),
                             -case_.mu * cloud.volume() * both * sphc::viscousF(cloud, list, k) * u);
         }

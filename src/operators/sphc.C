@@ -177,8 +177,8 @@ tensor ownGradient(const stencil& s, const vec4* u, label i)
     return grad;
 }
 
-// sum_j B_i : e_j (x) g_ij with e_j less than u_j - u_i by what sticks
-scalar reflectionAt(const stencil& s, const vec4* u, const tensor& B, label i)
+// sum_j B_i : e_j (x) g_ij with e_j of change whole, of u without what sticks
+scalar reflectionAt(const stencil& s, const vec4* change, const vec4* u, const tensor& B, label i)
 {
     const tensor grad = ownGradient(s, u, i);
     scalar sum = 0;
@@ -196,6 +196,7 @@ scalar reflectionAt(const stencil& s, const vec4* u, const tensor& B, label i)
                          along = grad.trace() - n.dot(grad * n);
             e = (n.dot(e) - 0.5 * d * along) * n;
         }
+        e += change[j].xyz() - change[i].xyz();
         sum += s.list.F[k] * e.dot(B * way);
     }
     return sum;
@@ -203,7 +204,8 @@ scalar reflectionAt(const stencil& s, const vec4* u, const tensor& B, label i)
 
 }  // namespace
 
-List<scalar> sphc::wallReflection(const stencil& s, const List<vec4>& u, divergenceScheme scheme)
+List<scalar> sphc::wallReflection(const stencil& s, const List<vec4>& change, const List<vec4>& u,
+                                  divergenceScheme scheme)
 {
     List<scalar> result(s.cloud.n(), 0);
     if (!s.cloud.hasRigid()) return result;
@@ -212,7 +214,7 @@ List<scalar> sphc::wallReflection(const stencil& s, const List<vec4>& u, diverge
     parallelFor(s.cloud.n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
             if (seesRigid(s, i))
-                result[i] = reflectionAt(s, u.data(), corrected ? s.B.all[i] : one, i);
+                result[i] = reflectionAt(s, change.data(), u.data(), corrected ? s.B.all[i] : one, i);
     });
     return result;
 }

@@ -128,9 +128,11 @@ void particleCloud::addRigid(const vector& position, const vector& velocity)
     through_.push_back(vector::Zero()), depth_.push_back(vec4{}), volume_.push_back(1);
 }
 
-void particleCloud::addRigid(const vector& position, const vector& velocity, const vector& foot)
+void particleCloud::addRigid(const vector& position, const vector& velocity, const vector& foot,
+                             const vector& gained)
 {
     addRigid(position, velocity);
+    through_.back() = gained;
     const scalar depth = (foot - position).norm();
     if (depth > 0) depth_.back() = vec4::from((foot - position) / depth, depth);
 }

@@ -156,9 +156,8 @@ TEST_CASE("vessels of rigid particles that speed up or turn push their fluid in 
                 exact.push_back(1000 * (turns ? 0.5 * omega * omega * (x - centre).squaredNorm()
                                               : -gain * x[0]));
             }
-            CHECK(worst < (turns ? 0.02 * omega * 8 * dx : 0.3 * a * dt));
-            // of what a wall gains a part is answered a step later, projectionStep.H
-            if (n == (turns ? 1 : 2)) continue;
+            CHECK(worst < (turns ? 0.02 * omega * 8 * dx : 0.08 * a * dt));
+            if (turns && n == 1) continue;  // how the wall's velocity turned before is not known
             CHECK(slope(exact, ours) == doctest::Approx(1).epsilon(0.05));
         }
     }

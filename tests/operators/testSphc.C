@@ -145,19 +145,22 @@ TEST_CASE("a flow that sticks to a wall has no divergence next to it, and no par
     list.build(cloud, *smoothingKernel::New("WendlandC2", 2, 1.3 * dx)), B.build(cloud, list);
     cloud.fillGhosts(cloud.Up, false);
     const auto corrected = divergenceScheme::corrected;
+    const List<vec4> none(cloud.nAll());
     const List<scalar> div = sphc::div({cloud, list, B}, cloud.Up, corrected),
-                       sticks = sphc::wallReflection({cloud, list, B}, cloud.Up, corrected);
+                       sticks = sphc::wallReflection({cloud, list, B}, none, cloud.Up, corrected);
     // towards the wall, with all its speed
     List<vec4> towards(cloud.nAll());
     for (label i = 0; i < cloud.n(); ++i) towards[i] = vec4::from({0, -1, 0});
     const List<scalar> once = sphc::div({cloud, list, B}, towards, corrected),
-                       again = sphc::wallReflection({cloud, list, B}, towards, corrected);
+                       again = sphc::wallReflection({cloud, list, B}, none, towards, corrected),
+                       change = sphc::wallReflection({cloud, list, B}, towards, none, corrected);
     for (label i = 0; i < cloud.n(); ++i)
     {
         if (std::abs(cloud.x[i][0]) > 7 * dx || cloud.x[i][1] > 5 * dx) continue;  // beside the ends
         CHECK(std::abs(div[i]) < 0.025 * dx);
         CHECK(std::abs(sticks[i]) < 0.035 * dx);  // 0.06 dx if all of it were mirrored
         CHECK(again[i] == doctest::Approx(once[i]));
+        CHECK(change[i] == doctest::Approx(once[i]));
         if (cloud.x[i][1] < dx) CHECK(once[i] < -0.3 / dx);
     }
 }
