@@ -139,18 +139,18 @@ void projectionStep::leaveOutGiven(const stencil& s, scalar dt, List<scalar>& di
 }
 
 // What mirrors in walls add to div u*: all of what the step adds to u is seen in them, and a part of what was there.  The
-// first step adds all
+// first step takes all for what was there
 void projectionStep::addReflection(const stencil& s, List<scalar>& div) const
 {
     const particleCloud& cloud = s.cloud;
     if (!cloud.hasRigid()) return;
-    List<vec4> change(cloud.Up), before(cloud.nAll());
+    List<vec4> change(cloud.nAll()), before(cloud.Up);
     if (behind(cloud) > 0)
     {
         const scalar Re = speedAlongWalls(s) * cloud.dx,
                      part = nu_ > 0 ? Re / (Re + smoothed * nu_) : 1;
         for (label i = 0; i < cloud.n(); ++i)
-            change[i].s -= before_[i].s, before[i].s = before_[i].s;
+            change[i].s = cloud.Up[i].s - before_[i].s, before[i].s = before_[i].s;
         cloud.fillContinuityGhosts(before);
         for (label g = cloud.n(); g < cloud.nAll(); ++g)
         {

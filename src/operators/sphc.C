@@ -188,15 +188,16 @@ scalar reflectionAt(const stencil& s, const vec4* change, const vec4* u, const t
         if (s.cloud.phase[j] != phaseType::rigid) continue;
         const vector way = s.cloud.x[i].xyz() - s.cloud.x[j].xyz();
         const vec4& depth = s.cloud.ghostDepth(j);
-        vector e = u[j].xyz() - u[i].xyz();
+        vector e = u[j].xyz() - u[i].xyz(), changeI = change[i].xyz();
         if (depth[3] > 0)
         {
             const vector n = depth.xyz();
             const scalar d = std::max(n.dot(way) - depth[3], 0.0),
                          along = grad.trace() - n.dot(grad * n);
             e = (n.dot(e) - 0.5 * d * along) * n;
+            changeI = n.dot(changeI) * n;
         }
-        e += change[j].xyz() - change[i].xyz();
+        e += change[j].xyz() - changeI;
         sum += s.list.F[k] * e.dot(B * way);
     }
     return sum;
