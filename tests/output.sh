@@ -159,7 +159,7 @@ surplus() { # patch boundary...: friction and flow with one dt over the other, o
     echo "${*:2} walls { type wall; }" > constant/boundary
     for dt in 0.01 0.0025; do
         rm -rf [1-9]* postProcessing
-        echo "endTime 5; deltaT $dt; writeControl runTime; writeInterval 5;
+        echo "endTime 14; deltaT $dt; writeControl runTime; writeInterval 14;
             functions { f { type forces; patches (walls); } q { type patchFlux; patch $1; } }" > $control
         place; solved
         echo "$dt $(mean postProcessing/f/0/force.dat 8) $(mean postProcessing/q/0/patchFlux.dat 2)"
