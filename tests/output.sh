@@ -139,15 +139,13 @@ for walls in particles mirror; do
     rm -r 0.* written postProcessing
     sed -i 's/velocity (1 0 0);//; s/separation (0.4 0 0);/& pressureDrop 1000;/' constant/boundary
     sed -i 's/U ("y" 0 0)/U ("0.5*1000\/0.4\/1000*y*(1-y)" 0 0)/' system/particleDict
-    echo "coupling monolithic;" > system/sphSolution  # projection slips at the walls by the order of its step
     place; solved
     # both walls together hold what the drop pushes
     tr -d '()' < postProcessing/f/0/force.dat | awk '$1 > 0.25 { sum += $8; ++n } END { f = sum/n/1000; exit !(f > 0.98 && f < 1.02) }' ||
         fail "a drop between $walls: $(tail -n 1 postProcessing/f/0/force.dat)"
 done
 
-# ---- between open faces projection slips at walls by dt grad p/rho: so much more goes through (12 mu dt/(rho H^2)) and is held
-# (4 mu dt/(rho H dx)); a drop between cyclic sides acts as a force and does not
+# ---- what sticks has been stuck to the wall before p moves it: neither friction nor flow changes with the step -------
 mkdir -p "$scratch/slip"/{constant,system}; cd "$scratch/slip" || exit 1
 echo "rho 1; mu 0.1;" > constant/physicalProperties
 echo 'dx 0.05; nDims 2; zones { f { phase fluid; shape box; min (0 0 0); max (0.8 0.5 0); U ("2.5*y*(0.5-y)" 0 0); } }
@@ -159,15 +157,15 @@ surplus() { # patch boundary...: friction and flow with one dt over the other, o
     echo "${*:2} walls { type wall; }" > constant/boundary
     for dt in 0.01 0.0025; do
         rm -rf [1-9]* postProcessing
-        echo "endTime 14; deltaT $dt; writeControl runTime; writeInterval 14;
+        echo "endTime 5; deltaT $dt; writeControl runTime; writeInterval 5;
             functions { f { type forces; patches (walls); } q { type patchFlux; patch $1; } }" > $control
         place; solved
         echo "$dt $(mean postProcessing/f/0/force.dat 8) $(mean postProcessing/q/0/patchFlux.dat 2)"
     done | awk '{ f = $2/0.2 - f; q = $3/0.0520833 - q } END { print -f, -q }'
 }
 surplus right 'left { type open; p 0.4; } right { type open; p 0; }' > open
-awk '{ print "    projection, slip between open faces: friction", $1, "expected", 0.12, "flow", $2, "expected", 0.036
-       exit !($1 > 0.096 && $1 < 0.144 && $2 > 0.0288 && $2 < 0.0432) }' open || fail "a projection that slips: $(cat open)"
+awk '{ print "    projection between open faces, four times the step: friction", $1, "flow", $2, "more"
+       exit !($1^2 < 0.01^2 && $2^2 < 0.005^2) }' open || fail "a projection that slips: $(cat open)"
 sed -i 's/patches {.*//' system/particleDict
 surplus ends 'ends { type cyclic; point (0 0 0); separation (0.8 0 0); pressureDrop 0.4; }' > drop
 awk '{ exit !($1^2 < 1e-6 && $2^2 < 1e-6) }' drop || fail "a projection with a pressureDrop slips: $(cat drop)"

@@ -155,8 +155,8 @@ void projection::solve(const stencil& s, scalar dt)
     if (density_.on())
         density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, closed),
                        [&](label i) { return c_.isCut(i); });
-    step_.predict(cloud, s, accelerations(), dt);
     hydrostatic_.take(cloud), addSlope(-1);
+    step_.predict(cloud, s, accelerations(), dt);
     step_.project(cloud, s, q, c_.kernel->support(), dt);
     hydrostatic_.giveBack(cloud), addSlope(1);
     step_.printContinuityErrors(cloud, s, q, dt);

@@ -70,17 +70,25 @@ scalar projectionStep::behind(const particleCloud& cloud)
     return found == cloud.history.end() ? 0 : found->second[0];
 }
 
+// What p takes from u* in a step
+List<vec4> projectionStep::corrected(const stencil& s, scalar dt) const
+{
+    List<vec4> change = sphc::grad(s, s.cloud.Up, schemes_.gradient);
+    for (vec4& u : change) u.s *= dt / rho_;
+    return change;
+}
+
 void projectionStep::predict(particleCloud& cloud, const stencil& s, const List<vec4>& a, scalar dt)
 {
     before_.assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
+    cloud.fillGhosts(cloud.Up, false);
     if (viscous_)
     {
         List<vec4> dtA(a);
         for (vec4& v : dtA) v.s *= dt;
-        viscous_->solve(cloud, s, dtA, dt * nu_);
+        viscous_->solve(cloud, s, dtA, corrected(s, dt), dt * nu_);
         return;
     }
-    cloud.fillGhosts(cloud.Up, false);
     const List<vec4> lap = sphc::laplacian(s, cloud.Up);
     parallelFor(cloud.n(), [&](label begin, label end) {
         const simd4 velocity = {dt, dt, dt, 0};
@@ -207,16 +215,16 @@ void projectionStep::project(particleCloud& cloud, const stencil& s, const List<
 void projectionStep::correct(particleCloud& cloud, const stencil& s, scalar dt) const
 {
     cloud.fillGhosts(cloud.Up, false);
-    const List<vec4> gradP = sphc::grad(s, cloud.Up, schemes_.gradient);
+    const List<vec4> change = corrected(s, dt);
     parallelFor(cloud.n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
-            if (!cloud.uFixed[i]) cloud.Up[i].s -= dt / rho_ * gradP[i].s;
+            if (!cloud.uFixed[i]) cloud.Up[i].s -= change[i].s;
     });
 }
 
 // p of -lap p = f, from the p that it finds
-void projectionStep::solvePressure(particleCloud& cloud, const List<scalar>& f,
-                                   scalar cellSize, scalar dt)
+void projectionStep::solvePressure(particleCloud& cloud, const List<scalar>& f, scalar cellSize,
+                                   scalar dt)
 {
     equation_.setSource(f);
     p_.resize(cloud.n());

@@ -56,8 +56,8 @@ public:
             {
                 scalar sum = 0;
                 for (auto k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
-                    sum += s.cloud.friction(i, s.list.index[k]) *
-                           sphc::viscousF(s.cloud, s.list, k);
+                    sum +=
+                        s.cloud.friction(i, s.list.index[k]) * sphc::viscousF(s.cloud, s.list, k);
                 inverse_[i] = s.cloud.uFixed[i] ? 1 : 1 / (1 - 2 * dtNu * sum);
             }
         });
@@ -85,7 +85,7 @@ projectionViscosity::projectionViscosity(const dictionary& solverU)
 }
 
 void projectionViscosity::solve(particleCloud& cloud, const stencil& s, const List<vec4>& dtA,
-                                scalar dtNu)
+                                const List<vec4>& atWalls, scalar dtNu)
 {
     const label n = cloud.n();
     // what walls and images bring by their offsets, and what prescribed velocities bring
@@ -94,7 +94,8 @@ void projectionViscosity::solve(particleCloud& cloud, const stencil& s, const Li
         if (cloud.uFixed[i]) given[i] = vec4::from(cloud.Up[i].xyz());
     cloud.fillGhosts(given, false);
     const List<scalar> scale = sphc::laplacianScale(s);
-    const List<vec4> fromGiven = sphc::laplacian(s, given, scale);
+    const List<vec4> fromGiven = sphc::laplacian(s, given, scale),
+                     fromWalls = sphc::laplacianAtWalls(s, atWalls, scale);
 
     List<scalar> b(4 * n, 0), x(4 * n, 0);
     for (label i = 0; i < n; ++i)
@@ -103,7 +104,7 @@ void projectionViscosity::solve(particleCloud& cloud, const stencil& s, const Li
         for (int c = 0; c < 3; ++c)
         {
             x[4 * i + c] = cloud.Up[i][c];
-            b[4 * i + c] = cloud.Up[i][c] + dtA[i][c] + dtNu * fromGiven[i][c];
+            b[4 * i + c] = cloud.Up[i][c] + dtA[i][c] + dtNu * (fromGiven[i][c] + fromWalls[i][c]);
         }
     }
     const solverPerformance result =

@@ -74,6 +74,22 @@ struct wallScene
         return worst;
     }
 
+    // Largest |laplacian u| dx^2 where a wall at rest goes as fast as the fluid, u everywhere, away from a plane's ends
+    scalar forceAlong(const vector& u, bool atWalls = true) const
+    {
+        const stencil here{cloud, list, B};
+        const List<scalar> c = sphc::laplacianScale(here);
+        List<vec4> all(cloud.n(), vec4::from(u));
+        cloud.fillGhosts(all, true);
+        const List<vec4> lap = sphc::laplacian(here, all, c),
+                         walls = sphc::laplacianAtWalls(here, all, c);
+        scalar worst = 0;
+        for (label i = 0; i < cloud.n(); ++i)
+            if (i % columns >= 4 && i % columns < columns - 4 && i / columns < 3)
+                worst = std::max(worst, (lap[i].xyz() + scalar(atWalls) * walls[i].xyz()).norm());
+        return worst * dx * dx;
+    }
+
 private:
     static constexpr int columns = 50;
 
@@ -135,6 +151,22 @@ TEST_CASE(
     for (label i = 0; i < s.cloud.n(); ++i)
         for (auto k = s.list.mid[i]; k < s.list.start[i + 1]; ++k)
             CHECK(s.cloud.wallFactor(i, s.list.index[k]) == 2);
+}
+
+TEST_CASE("fluid beside a wall that goes with it feels nothing; only along the wall can it go")
+{
+    for (const wallOf kind : {wallOf::rigid, wallOf::images})
+    {
+        CAPTURE(int(kind));
+        wallScene s(0, kind);
+        makeShearExact(s.cloud, s.list);
+        CHECK(s.forceAlong({1, 0, 0.5}) < 1e-12);
+        CHECK(s.forceAlong({0, 1, 0}) > 0.5);
+        CHECK(s.forceAlong({0, 1, 0}) ==
+              doctest::Approx(s.forceAlong({0, 1, 0}, false)).epsilon(1e-12));
+    }
+    wallScene unknown(0, wallOf::rigidWithoutFeet);
+    CHECK(unknown.forceAlong({1, 0, 0}) == unknown.forceAlong({1, 0, 0}, false));
 }
 
 TEST_CASE("the number of a row is held within a half and two")
