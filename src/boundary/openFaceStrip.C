@@ -235,8 +235,9 @@ scalar openFace::fluxOf(const particleCloud& cloud, const velocityBefore& veloci
     return flux;
 }
 
-// The slope of the pressure is carried on, and, where that is given, the strip takes the velocity before the surface, averaged over 1.5 dx along it.  Over a wider reach the flow along the surface
-// would run into a wall or away from it: nothing in the strip holds it back
+// The slope of the pressure is carried on, and, where that is given, the strip takes the velocity before the
+// surface, averaged over 1.5 dx along it.  Over a wider reach the flow along the surface would run into a wall or
+// away from it: nothing in the strip holds it back
 void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, scalar rho,
                             scalar dt) const
 {

@@ -6,7 +6,8 @@
 //
 // surfaceFormat: vtk, the default, which ParaView opens, or raw, a table of x y z p U wallShearStress.
 // wallShearStress is the traction mu (grad U + grad U^T) n less its normal part, of the fluid on the surface.
-// Triangles without particles before them read NaN, in vtk 0 with `covered` 0.  By default at the times at which particles are written.
+// Triangles without particles before them read NaN, in vtk 0 with `covered` 0.  By default at the times at which
+// particles are written.
 #include "functionObject.H"
 
 #include "fileNames.H"
