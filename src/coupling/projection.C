@@ -31,6 +31,9 @@ namespace ispf
 namespace
 {
 
+// Entry of cloud.history: slope of p along cyclic patches in the last step, if it is not zero [Pa/m]
+const word slopeOfStep = "pressureSlope";
+
 class projection : public couplingScheme
 {
 public:
@@ -60,7 +63,8 @@ private:
     List<vec4> accelerations() const;
     List<scalar> sources() const;
     void checkPushed(const List<label>& bodyOf) const;
-    void addSlope(scalar sign);
+    vector slopeBehind() const;
+    void addSlope(scalar sign, const vector& ofState);
     void solve(const stencil& s, scalar dt);
     void move(const List<vec4>& before, scalar dt);
 
@@ -130,14 +134,21 @@ void projection::checkPushed(const List<label>& bodyOf) const
     }
 }
 
-// A pressure that falls from period to period is a force, and p less that slope repeats itself.  With the rest of the
-// gradient, which comes after the viscosity, it would let the fluid slip along walls by dt slope/rho
-void projection::addSlope(scalar sign)
+vector projection::slopeBehind() const
 {
-    if (slope_.isZero(0)) return;
+    const auto found = c_.cloud.history.find(slopeOfStep);
+    return found == c_.cloud.history.end() ? vector(vector::Zero()) : vector(found->second.data());
+}
+
+// A pressure that falls from period to period is a force, and p less that slope repeats itself.  ofState: the slope that p
+// of the state has, that of its step
+void projection::addSlope(scalar sign, const vector& ofState)
+{
+    if (slope_.isZero(0) && ofState.isZero(0)) return;
     particleCloud& cloud = c_.cloud;
     const auto part = [&](label j) { return sign * slope_.dot(cloud.x[j].xyz()); };
-    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] += part(i), cloud.pGiven[i] += part(i);
+    for (label i = 0; i < cloud.n(); ++i)
+        cloud.Up[i][3] += sign * ofState.dot(cloud.x[i].xyz()), cloud.pGiven[i] += part(i);
     for (label g = cloud.n(); g < cloud.nAll(); ++g)
         if (const label source = cloud.ghostSource(g); source >= 0)
             cloud.addToGhostPressure(g, part(g) - part(source));
@@ -155,10 +166,12 @@ void projection::solve(const stencil& s, scalar dt)
     if (density_.on())
         density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, closed),
                        [&](label i) { return c_.isCut(i); });
-    hydrostatic_.take(cloud), addSlope(-1);
+    hydrostatic_.take(cloud), addSlope(-1, slopeBehind());
     step_.predict(cloud, s, accelerations(), dt);
     step_.project(cloud, s, q, c_.kernel->support(), dt);
-    hydrostatic_.giveBack(cloud), addSlope(1);
+    hydrostatic_.giveBack(cloud), addSlope(1, slope_);
+    if (slope_.isZero(0)) cloud.history.erase(slopeOfStep);
+    else cloud.history[slopeOfStep] = {slope_[0], slope_[1], slope_[2]};
     step_.printContinuityErrors(cloud, s, q, dt);
     density_.book(cloud, dt);
 }

@@ -14,6 +14,9 @@ namespace
 // Cell Reynolds number at which half of u^n is mirrored in walls
 constexpr scalar smoothed = 10;
 
+// Step [dx^2/nu] at which walls go ahead of p by half
+constexpr scalar farthest = 12;
+
 const char* const defaultPressureSolver =
     "solver PCG; preconditioner multigrid; tolerance 1e-6; relTol 0; maxIter 200;";
 
@@ -70,12 +73,24 @@ scalar projectionStep::behind(const particleCloud& cloud)
     return found == cloud.history.end() ? 0 : found->second[0];
 }
 
-// What p takes from u* in a step
+// What p as it stands takes from u* in a step
 List<vec4> projectionStep::corrected(const stencil& s, scalar dt) const
 {
     List<vec4> change = sphc::grad(s, s.cloud.Up, schemes_.gradient);
     for (vec4& u : change) u.s *= dt / rho_;
     return change;
+}
+
+// By how much walls go faster, per row next to them, see above; p is that of the step before
+List<vec4> projectionStep::aheadAtWalls(const stencil& s, scalar dt) const
+{
+    const particleCloud& cloud = s.cloud;
+    if (!(behind(cloud) > 0)) return List<vec4>(cloud.n());
+    List<vec4> ahead = sphc::alongWalls(s, corrected(s, dt));
+    const scalar steps = nu_ * dt / (farthest * cloud.dx * cloud.dx),
+                 part = 1 / (1 + std::pow(steps, 4));
+    for (vec4& u : ahead) u.s *= part;
+    return ahead;
 }
 
 void projectionStep::predict(particleCloud& cloud, const stencil& s, const List<vec4>& a, scalar dt)
@@ -86,7 +101,7 @@ void projectionStep::predict(particleCloud& cloud, const stencil& s, const List<
     {
         List<vec4> dtA(a);
         for (vec4& v : dtA) v.s *= dt;
-        viscous_->solve(cloud, s, dtA, corrected(s, dt), dt * nu_);
+        viscous_->solve(cloud, s, dtA, aheadAtWalls(s, dt), dt * nu_);
         return;
     }
     const List<vec4> lap = sphc::laplacian(s, cloud.Up);

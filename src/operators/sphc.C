@@ -283,42 +283,4 @@ List<vec4> sphc::laplacian(const stencil& s, const List<vec4>& phi, const List<s
     return result;
 }
 
-namespace
-{
-
-// By how much the wall's going faster changes the velocity of neighbour j as i sees it
-vector atWall(const particleCloud& cloud, const List<vec4>& u, label i, label j)
-{
-    if (const label source = cloud.ghostSource(j); source >= 0)
-    {
-        const ghostRule& rule = cloud.ruleOf(j);
-        return (rule.R - rule.M.topLeftCorner<3, 3>()) * u[source].xyz();
-    }
-    const vec4& depth = cloud.ghostDepth(j);
-    if (!(depth[3] > 0)) return vector::Zero();
-    return u[i].xyz() - depth.xyz().dot(u[i].xyz()) * depth.xyz();
-}
-
-}  // namespace
-
-List<vec4> sphc::laplacianAtWalls(const stencil& s, const List<vec4>& u, const List<scalar>& c)
-{
-    const particleCloud& cloud = s.cloud;
-    List<vec4> result(cloud.n());
-    if (!cloud.nGhosts()) return result;
-    parallelFor(cloud.n(), [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-            for (std::int64_t k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
-            {
-                const label j = s.list.index[k];
-                if (j < cloud.n()) continue;
-                const scalar both = c[i] + (cloud.ghostSource(j) < 0 ? c[i] : c[j]);
-                result[i].s -= vec4::from(cloud.friction(i, j) * viscousF(cloud, s.list, k) * both *
-                                          atWall(cloud, u, i, j))
-                                   .s;
-            }
-    });
-    return result;
-}
-
 }  // namespace ispf

@@ -82,7 +82,7 @@ struct wallScene
         List<vec4> all(cloud.n(), vec4::from(u));
         cloud.fillGhosts(all, true);
         const List<vec4> lap = sphc::laplacian(here, all, c),
-                         walls = sphc::laplacianAtWalls(here, all, c);
+                         walls = sphc::laplacianAtWalls(here, sphc::alongWalls(here, all), c);
         scalar worst = 0;
         for (label i = 0; i < cloud.n(); ++i)
             if (i % columns >= 4 && i % columns < columns - 4 && i / columns < 3)
