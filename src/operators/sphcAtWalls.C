@@ -9,7 +9,7 @@ namespace ispf
 namespace
 {
 
-// n n^T of the wall that ghost j stands for, zero where it is not known
+// n n^T of the wall that ghost j stands for, zero where it is not known; images in several walls at once are left out
 tensor acrossWall(const particleCloud& cloud, label j)
 {
     if (cloud.ghostSource(j) >= 0)
