@@ -81,11 +81,11 @@ List<vec4> projectionStep::corrected(const stencil& s, scalar dt) const
     return change;
 }
 
-// By how much walls go faster, per row next to them, see above; p is that of the step before
+// By how much walls go faster, per row next to them; p is that of the step before.  Empty: not at all
 List<vec4> projectionStep::aheadAtWalls(const stencil& s, scalar dt) const
 {
     const particleCloud& cloud = s.cloud;
-    if (!(behind(cloud) > 0)) return List<vec4>(cloud.n());
+    if (!(behind(cloud) > 0) || !sphc::anySticks(cloud)) return {};
     List<vec4> ahead = sphc::alongWalls(s, corrected(s, dt));
     const scalar steps = nu_ * dt / (farthest * cloud.dx * cloud.dx),
                  part = 1 / (1 + std::pow(steps, 4));

@@ -23,18 +23,19 @@ tensor acrossWall(const particleCloud& cloud, label j)
 // is across it, not at all from a quarter on.  In corners nothing does: p has no slope there that dx resolves
 vector alongWallsAt(const stencil& s, label i, const List<vec4>& all)
 {
+    const auto weight = [&](std::int64_t k) {
+        return -s.list.F[k] * (s.cloud.x[i].xyz() - s.cloud.x[s.list.index[k]].xyz()).squaredNorm();
+    };
     tensor across = tensor::Zero();
+    for (std::int64_t k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
+        if (const label j = s.list.index[k]; j >= s.cloud.n())
+            across += weight(k) * acrossWall(s.cloud, j);
+    if (!(across.trace() > 0)) return vector::Zero();
     vector u = vector::Zero();
     scalar sum = 0;
-    for (std::int64_t k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
-    {
-        const label j = s.list.index[k];
-        const scalar weight =
-            -s.list.F[k] * (s.cloud.x[i].xyz() - s.cloud.x[j].xyz()).squaredNorm();
-        if (j >= s.cloud.n()) across += weight * acrossWall(s.cloud, j);
-        if (k < s.list.mid[i]) u += weight * all[j].xyz(), sum += weight;
-    }
-    if (!(across.trace() > 0) || !(sum > 0)) return vector::Zero();
+    for (std::int64_t k = s.list.start[i]; k < s.list.mid[i]; ++k)
+        u += weight(k) * all[s.list.index[k]].xyz(), sum += weight(k);
+    if (!(sum > 0)) return vector::Zero();
     u /= sum;
     const Eigen::SelfAdjointEigenSolver<tensor> part(across / across.trace());
     const vector counts = ((0.25 - part.eigenvalues().array()) / 0.15).cwiseMax(0).cwiseMin(1);
@@ -55,10 +56,16 @@ vector atWall(const particleCloud& cloud, const List<vec4>& u, label i, label j)
 
 }  // namespace
 
+bool sphc::anySticks(const particleCloud& cloud)
+{
+    for (label g = cloud.n(); g < cloud.nAll(); ++g)
+        if (cloud.ghostSource(g) < 0 || cloud.sticks(g)) return true;
+    return false;
+}
+
 List<vec4> sphc::alongWalls(const stencil& s, List<vec4> u)
 {
     List<vec4> result(s.cloud.n());
-    if (!s.cloud.nGhosts()) return result;
     s.cloud.fillGradientGhosts(u);
     parallelFor(s.cloud.n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i) result[i].setXyz(alongWallsAt(s, i, u));
@@ -70,7 +77,7 @@ List<vec4> sphc::laplacianAtWalls(const stencil& s, const List<vec4>& u, const L
 {
     const particleCloud& cloud = s.cloud;
     List<vec4> result(cloud.n());
-    if (!cloud.nGhosts()) return result;
+    if (u.empty()) return result;
     parallelFor(cloud.n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
             for (std::int64_t k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
