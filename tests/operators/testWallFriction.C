@@ -169,6 +169,37 @@ TEST_CASE("fluid beside a wall that goes with it feels nothing; only along the w
     CHECK(unknown.forceAlong({1, 0, 0}) == unknown.forceAlong({1, 0, 0}, false));
 }
 
+TEST_CASE("walls that meet in a corner lead nothing along them there")
+{
+    particleCloud cloud;
+    cloud.nDims = 2, cloud.dx = dx;
+    cloud.zones = {{"fluid", phaseType::fluid, false}};
+    const auto at = [](int column, int row) -> vector {
+        return {(column + 0.5) * dx, (row + 0.5) * dx, 0};
+    };
+    for (int row = 0; row < 8; ++row)
+        for (int column = 0; column < 12; ++column)
+            cloud.append(at(column, row), 0, vec4{}, cloud.nextId());
+    CHECK(!sphc::anySticks(cloud));
+    for (int k = 0; k < 12; ++k)
+        for (int layer = -3; layer < 0; ++layer)
+        {
+            cloud.addRigid(at(k, layer), {0, 0, 0}, {at(k, 0)[0], 0, 0});
+            if (k < 8) cloud.addRigid(at(layer, k), {0, 0, 0}, {0, at(0, k)[1], 0});
+        }
+    CHECK(sphc::anySticks(cloud));
+    neighbourList list;
+    kernelCorrection B;
+    list.build(cloud, *smoothingKernel::New("WendlandC2", 2, 1.3 * dx)), B.build(cloud, list);
+    const List<vec4> along =
+        sphc::alongWalls({cloud, list, B}, List<vec4>(cloud.n(), vec4::from({1, 2, 0})));
+    const auto of = [&](int column, int row) { return vector(along[row * 12 + column].xyz()); };
+    CHECK(of(0, 0).norm() < 1e-12);
+    CHECK((of(6, 0) - vector(1, 0, 0)).norm() < 1e-12);
+    CHECK((of(0, 5) - vector(0, 2, 0)).norm() < 1e-12);
+    CHECK(of(6, 4).norm() == 0);
+}
+
 TEST_CASE("the number of a row is held within a half and two")
 {
     wallScene s(0, wallOf::rigid);
