@@ -92,11 +92,11 @@ interrupted() { # folder log time: a validation whose solver was stopped when it
         setsid "$validate" -tier quick -folder "$1" "${@:4}" > /dev/null 2>&1 & run=$!
         until grep -qs "^Time = $3" "$1/$2" || ! kill -0 $run 2> /dev/null; do sleep 0.02; done
         kill -TERM -- -$run 2> /dev/null; wait $run 2> /dev/null && continue
-        for k in {1..100}; do # its last words
-            ! tail -n 4 "$1/$2" | grep -q "SIGTERM" || return 0
+        for k in {1..100}; do # until it has written what it had
             ! grep -q "^End" "$1/$2" || break
             sleep 0.1
         done
+        ! grep -q "SIGTERM" "$1/$2" || return 0
     done
     fail "$2 was not interrupted: $(tail -n 4 "$1/$2")"
 }
