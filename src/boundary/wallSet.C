@@ -140,7 +140,8 @@ void wallSet::keepVelocities(particleCloud& cloud) const
         if (!w.motion.moves() && !w.motion.slides()) continue;
         List<scalar>& kept = cloud.history[entry];
         kept.assign(w.velocity.u.begin(), w.velocity.u.end());
-        if (!w.velocity.uniform) kept.insert(kept.end(), w.velocity.L.data(), w.velocity.L.data() + 9);
+        if (!w.velocity.uniform)
+            kept.insert(kept.end(), w.velocity.L.data(), w.velocity.L.data() + 9);
     }
 }
 
@@ -402,7 +403,8 @@ void wallSet::addRigid(particleCloud& cloud) const
         for (size_t k = 0; k < w.rigid.size(); ++k)
             if (const vector at = w.frame.toSpace(w.rigid[k]); cells.near(at))
             {
-                const vector foot = w.frame.toSpace(w.footOf(k)), whose = w.motion.rotates() ? foot : at;
+                const vector foot = w.frame.toSpace(w.footOf(k)),
+                             whose = w.motion.rotates() ? foot : at;
                 cloud.addRigid(at, w.velocity.at(whose), foot, w.gained(whose));
             }
 }

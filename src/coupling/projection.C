@@ -56,11 +56,11 @@ public:
                << shifting_.describe() << std::endl;
     }
 
-    stepLimit limit() const override { return limits_.ruling(accelerations()); }
+    stepLimit limit() const override;
     void step(scalar t, scalar dt) override;
 
 private:
-    List<vec4> accelerations() const;
+    List<vec4> accelerations(const vector& slope) const;
     List<scalar> sources() const;
     void checkPushed(const List<label>& bodyOf) const;
     vector slopeBehind() const;
@@ -79,8 +79,14 @@ private:
     vector slope_ = vector::Zero();  // of p along cyclic patches with a pressureDrop [Pa/m]
 };
 
-// Body force of the zone and springs, Eq. (2) of the paper
-List<vec4> projection::accelerations() const
+couplingScheme::stepLimit projection::limit() const
+{
+    c_.walls->setStep(c_.time.value(), c_.stepEnd());
+    return limits_.ruling(accelerations(c_.walls->pressureSlope()));
+}
+
+// Body force of the zone, springs, Eq. (2) of the paper, and the slope of p along cyclic patches
+List<vec4> projection::accelerations(const vector& slope) const
 {
     const particleCloud& cloud = c_.cloud;
     List<vec4> a(cloud.n());
@@ -96,7 +102,7 @@ List<vec4> projection::accelerations() const
             a[i].s += vec4::from(c_.bodyForce[cloud.zone[i]] - hydrostatic_.acceleration()).s;
     for (label i = 0; i < cloud.n(); ++i)
         if (cloud.uFixed[i]) a[i] = vec4{};
-        else a[i].s -= vec4::from(slope_ / c_.rho).s;
+        else a[i].s -= vec4::from(slope / c_.rho).s;
     return a;
 }
 
@@ -167,7 +173,7 @@ void projection::solve(const stencil& s, scalar dt)
         density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, closed),
                        [&](label i) { return c_.isCut(i); });
     hydrostatic_.take(cloud), addSlope(-1, slopeBehind());
-    step_.predict(cloud, s, accelerations(), dt);
+    step_.predict(cloud, s, accelerations(slope_), dt);
     step_.project(cloud, s, q, c_.kernel->support(), dt);
     hydrostatic_.giveBack(cloud), addSlope(1, slope_);
     if (slope_.isZero(0)) cloud.history.erase(slopeOfStep);

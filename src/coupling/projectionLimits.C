@@ -61,7 +61,6 @@ scalar projectionLimits::stiffness() const
 couplingScheme::stepLimit projectionLimits::ruling(const List<vec4>& acceleration) const
 {
     const scalar h = c_.kernel->h();
-    c_.walls->setStep(c_.time.value(), c_.stepEnd());
     const scalar u = std::max(longest(c_.cloud.Up, c_.cloud.n()), c_.walls->maxGivenSpeed());
     const scalar f = longest(acceleration, c_.cloud.n());
     couplingScheme::stepLimit limit{none, "none"};

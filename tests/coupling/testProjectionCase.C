@@ -284,6 +284,17 @@ TEST_CASE("the limit that rules is named")
     CHECK(limitOf("viscosity implicit;", "rho 1; mu 0.5;", none).rule == "none");
     CHECK(limitOf("limits { CFL 0.1; }", "rho 1; mu 0.01;", some).dt == relative(0.1 * h / 2));
 
-    const auto force = limitOf("", "rho 1; mu 0.01; bodyForce { fluid (0 0 0); }", some);
-    CHECK(force.rule == "CFL");
+    const word pushed = "rho 2; mu 0.01; bodyForce { fluid (3 0 0); }";
+    CHECK(limitOf("", "rho 2; mu 0.01; bodyForce { fluid (0 0 0); }", some).rule == "CFL");
+    files.fill(16, 20, 0.02), files.boundary = endlessBox;
+    const auto force = limitOf("", pushed, none);
+    CHECK(force.rule == "force");
+    CHECK(force.dt == relative(0.25 * std::sqrt(h / 3)));
+    CHECK(limitOf("limits { force 0.1; }", pushed, none).dt == relative(0.1 * std::sqrt(h / 3)));
+    // a pressure drop is a force before the first step as well: 1.92 Pa over 2 kg/m^3 x 0.32 m
+    word& sides = files.boundary;
+    sides.insert(sides.find("separation"), "pressureDrop 1.92; ");
+    const auto drop = limitOf("", "rho 2; mu 0.01;", none);
+    CHECK(drop.rule == "force");
+    CHECK(drop.dt == relative(0.25 * std::sqrt(h / 3)));
 }

@@ -156,7 +156,8 @@ TEST_CASE("a flow that sticks to a wall has no divergence next to it, and little
                        change = sphc::wallReflection({cloud, list, B}, towards, none, corrected);
     for (label i = 0; i < cloud.n(); ++i)
     {
-        if (std::abs(cloud.x[i][0]) > 7 * dx || cloud.x[i][1] > 5 * dx) continue;  // beside the ends
+        if (std::abs(cloud.x[i][0]) > 7 * dx || cloud.x[i][1] > 5 * dx)
+            continue;  // beside the ends
         CHECK(std::abs(div[i]) < 0.025 * dx);
         CHECK(std::abs(sticks[i]) < 0.035 * dx);  // 0.06 dx if all of it were mirrored
         CHECK(again[i] == doctest::Approx(once[i]));
