@@ -125,3 +125,21 @@ TEST_CASE("a clamped strip bends as a beam, the better the more layers it has")
     }
     CHECK(before < 0.03);
 }
+
+TEST_CASE("a solid that is clamped throughout has no limit of its own, and writes none")
+{
+    caseOnDisk files("clampedBlock");
+    place(files, {4, 6, 0});
+    files.particles().attributes["phases"] = "clamped clamped fluid";
+    files.control = "startTime 0; endTime 1; deltaT 0.01; writeControl timeStep; writeInterval 1;";
+    files.write();
+    setContent(files.path() + "/constant/structureProperties", links);
+    capturedLog log;
+    Time time(files.path());
+    fsiCase c(time);
+    const auto scheme = couplingScheme::New(c);
+    CHECK(scheme->limit().rule == "none");
+    runSteps(c, *scheme, 0.01, 1);
+    c.write();
+    CHECK(std::filesystem::exists(files.path() + "/0.01/particles.hdf"));
+}
