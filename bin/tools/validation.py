@@ -130,6 +130,39 @@ def history(name, file, whole=True):
     return rows
 
 
+def reference(path, textual=()):
+    """Rows of a table of published values, a header and rows of numbers with commas between them, # before remarks:
+    dictionaries, of floats but in the textual columns, None where there is nothing"""
+    if not os.path.exists(path):
+        sys.exit(f"there is no {path}: it has the published values")
+    with open(path, encoding="utf-8") as file:
+        rows = [(n, line.strip()) for n, line in enumerate(file, 1) if line.strip() and not line.startswith("#")]
+    if len(rows) < 2:
+        sys.exit(f"{path} has no values: a line of names and then one of values is the least")
+    names, found = rows[0][1].split(","), []
+    for n, line in rows[1:]:
+        words = line.split(",")
+        if len(words) != len(names):
+            sys.exit(f"{path}, line {n}: {len(words)} columns where the header has {len(names)}: {line}")
+        try:
+            found.append({k: w if k in textual else float(w) if w else None for k, w in zip(names, words)})
+        except ValueError:
+            sys.exit(f"{path}, line {n}: no number where the header has {', '.join(k for k in names if k not in textual)}: {line}")
+    return found
+
+
+def explain(kind, error, trace):
+    """In place of Python's own lines: where, what and what to look at"""
+    while trace.tb_next and "/validation/" in trace.tb_next.tb_frame.f_code.co_filename:
+        trace = trace.tb_next
+    print(f"{trace.tb_frame.f_code.co_filename}, line {trace.tb_lineno}: {kind.__name__}: {error}. It has met an entry or a "
+          "file that it does not expect: see that what it reads there is whole, and the entry one that the tutorial's "
+          "README speaks of", file=sys.stderr)
+
+
+sys.excepthook = explain
+
+
 def instants(folder):
     """Names of the times that a function object has written, in their order"""
     if not os.path.isdir(folder):
@@ -179,6 +212,9 @@ def startUp(place, component, exact, walls, reach, since=0.0, final=0.0):
             continue
         slips = [abs(wallSlip([(distance(s), u - known) for s, u, known in rows], reach)) for distance in walls]
         worst.append(last), slip.append(largest(slips))
+    if profiles and not worst:
+        sys.exit(f"no state has been written after {since:.3g} s, from which on the flow is judged: the last is of "
+                 f"{profiles[-1][0]}; take a later endTime in system/controlDict, or write there")
     if not profiles:
         sys.exit("no state has been written after the start: endTime, writeInterval or writeTimes of system/controlDict")
     if not reached >= 0.5 * final and not os.environ.get("ISPF_STEPS"):
@@ -217,6 +253,9 @@ class sine:
         if kind != "sine":
             sys.exit(f"{key} of {file} is of type '{kind}': the reference is known for sine")
         self.omega = 2 * math.pi * number(file, f"{key}.frequency")
+        if not self.omega > 0:
+            sys.exit(f"{key}.frequency of {file} is {self.omega / (2 * math.pi):g}: what does not swing has no reference here; "
+                     "give a frequency above 0, or a constant")
         self.amplitude = number(file, f"{key}.amplitude") * number(file, f"{key}.scale", 1)
         self.level, self.t0 = number(file, f"{key}.level", 0), number(file, f"{key}.t0", 0)
 
