@@ -45,7 +45,8 @@ for none in depth extremes; do
 done
 broken 1 "largest speed.*nan .*FAIL" "sed -i 's|rows\[-1\]\[5\] /|math.nan /|' $hydrostatics"
 broken 1 "the run .*FAIL" "sed -i 's/^runComparison/true/' Allrun"
-broken 1 "rest: FAIL, Allrun failed" "setEntry system/sphSolution coupling none"
+broken 1 "rest: FAIL, Allrun failed: .*Unknown coupling 'none'.*/complaints|rest: FAIL, Allrun failed: .*'none'.*/out" "setEntry system/sphSolution coupling none"
+grep -q "Allrun failed: .*'none'.*complaints" "$scratch/tree/validation/report.md" || fail "the report does not say why: $(cat "$scratch/tree/validation/report.md")"
 broken 1 "rest: FAIL, Allrun failed" "sed -i 's/report = /1 + &/' $hydrostatics"
 broken 1 "reached 0.02 of 0.05 s" "sed -i 's/^runApplication ispf.*/&; sed -i s,0.05,0.02,g log.ispfFsiFoam/' Allrun"
 broken 1 "no picture was made" "sed -i '/^out/s/.*/&; exit/' validation/plot.gp"
@@ -54,7 +55,7 @@ broken 1 "rest: FAIL, .*system/sphDict" "echo 'rest quick system/sphDict couplin
 broken 1 "no tier 'fast'|of tier 'fast'; valid: quick validate validateLong" "echo 'rest fast' > validation/variants"
 broken 1 "there is no tutorial 'nothing'" "" nothing
 broken 1 "unknown option '-tiers'; valid" "" -tiers
-broken 1 "rest: FAIL, Allrun failed" "sed -i 's/^sys.exit(\(.*\))/\1; raise OSError/' validation/compare"
+broken 1 "rest: FAIL, .*compare, line [0-9]*: OSError" "sed -i 's/^sys.exit(\(.*\))/\1; raise OSError/' validation/compare"
 broken 1 "rest: FAIL, it is running already" "mkdir -p ../../../validation/.state/ispfFsiFoam/hydrostaticBox/rest; flock ../../../validation/.state/ispfFsiFoam/hydrostaticBox/rest/lock sleep 60 & sleep 0.5" -jobs 2
 kill %1
 # what runs in the tutorial's own folder have left does not count
@@ -82,6 +83,18 @@ for gone in comparison/summary.csv ""; do
         fail "without rest/$gone: $(cat "$scratch/out")"
     diff <(cut -d, -f 1-11 "$scratch/once.csv") <(cut -d, -f 1-11 "$results/summary.csv") || fail "without rest/$gone the summary differs"
 done
+# nor does what the tutorial had, and has no more, judge anything
+compare=validation/compare; echo 1 > validation/table; sed -i 's/^sys.exit/open("validation\/table"); &/' $compare
+"$validate" -tier quick > "$scratch/out" 2>&1 || fail "with a table: $(cat "$scratch/out")"
+rm validation/table
+"$validate" -tier quick > "$scratch/out" 2>&1 && fail "a table that is no more is read: $(cat "$scratch/out")"
+grep -q "rest: FAIL, Allrun failed: .*compare, line [0-9]*: FileNotFoundError: .*validation/table" "$scratch/out" || fail "no table: $(cat "$scratch/out")"
+sed -i 's/open("validation.table"); //' $compare; "$validate" -tier quick > /dev/null 2>&1
+summary=$results/ispfFsiFoam/hydrostaticBox/rest/comparison/summary.csv
+cp "$summary" "$scratch/whole.csv"; head -c -9 "$scratch/whole.csv" > "$summary"
+"$validate" -tier quick > "$scratch/out" 2>&1 && fail "cut off in the last column, and the status is 0"
+grep -q "summary.csv is cut off" "$results/report.md" || fail "cut off in the last column: $(cat "$scratch/out")"
+cp "$scratch/whole.csv" "$summary"
 sed -i 1q "$results/ispfFsiFoam/hydrostaticBox/rest/comparison/summary.csv"
 "$validate" -tier quick > "$scratch/out" 2>&1 && fail "nothing was compared, and the status is 0"
 grep -q "nothing was compared" "$results/report.md" || fail "nothing was compared: $(cat "$scratch/out")"
@@ -109,4 +122,15 @@ validate=$ispfRoot/bin/ispfValidate
 interrupted "$scratch/own" ispfFsiFoam/invariance/allAtOnce/plain/log.ispfFsiFoam 0.1 invariance
 "$validate" -tier quick -folder "$scratch/own" invariance > "$scratch/out" 2>&1 || fail "goes on in its own folder: $(cat "$scratch/out")"
 grep -q "allAtOnce: goes on" "$scratch/out" || fail "begins anew in its own folder: $(cat "$scratch/out")"
+# tables of published values say where they are broken
+values() { # text, what is said
+    printf '%b' "$1" > "$scratch/table.csv"
+    (cd "$scratch" && PYTHONPATH=$ispfRoot/bin/tools python3 -c \
+        'from validation import reference; print(reference("table.csv", ("name",)))') > "$scratch/out" 2>&1
+    grep -qF -- "$2" "$scratch/out" || fail "table '$1': '$2' is not said: $(cat "$scratch/out")"
+}
+values '# whose\nname,s,v\na,1,2.5\nb,,-1e-3\n' "[{'name': 'a', 's': 1.0, 'v': 2.5}, {'name': 'b', 's': None, 'v': -0.001}]"
+values '# whose\nname,s,v\na,1\n' "table.csv, line 3: 2 columns where the header has 3: a,1"
+values 'name,s,v\na,1,abc\n' "table.csv, line 2: no number where the header has s, v: a,1,abc"
+values 'name,s,v\n' "table.csv has no values"
 [ $failures = 0 ]

@@ -291,10 +291,11 @@ word monolithic::tooFar(scalar dt, const List<scalar>& z) const
 }
 
 // p does work in a closed body only on what moves it.  D and G are exact of linear fields, not adjoint: where dx does not
-// resolve the flow p makes it faster, until it breaks down.  At open faces p does what it is there for
+// resolve the flow p makes it faster, until it breaks down.  At open faces, and walls that move, p does what it is there for
 word monolithic::gains(const List<scalar>& z) const
 {
-    if (c_.walls->hasOpen() || cellReynolds() < resolved) return "";
+    if (c_.walls->hasOpen() || c_.walls->maxGivenSpeed() > 0 || cellReynolds() < resolved)
+        return "";
     const vector frame = frameOf(z);
     scalar kinetic = 0;
     for (label i = 0; i < c_.cloud.n(); ++i)
