@@ -40,6 +40,7 @@ scalar chooseDeltaT(const Time& time, const couplingScheme::stepLimit& limit)
 // U dx/nu: measured, swirls of a few dx gain energy where it is 190 (fluid alone, closed box, both couplings)
 bool isUnresolved(const fsiCase& c)
 {
+    if (c.cloud.nSolid() == c.cloud.n()) return false;
     const scalar Re = c.rho * c.cloud.maxSpeed() * c.cloud.dx / c.mu;
     if (!(Re > mostCellReynolds)) return false;
     warning("time " + c.time.timeName() + " s: cell Reynolds number U dx/nu is " + str(Re, 3) +
