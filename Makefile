@@ -106,7 +106,7 @@ testPrograms: $(B)/testPrograms/$(1)
 endef
 .PHONY: testPrograms testPackages
 testPrograms:
-testPackages: # lists what is missing and asks, as the demo does
+testPackages: # lists what is missing and installs it, as the demo does
 	@{ echo '#include <doctest/doctest.h>' | $(CXX) -E -x c++ - && command -v h5dump && command -v gmsh; } \
 	    > /dev/null 2>&1 || bin/installDependencies run test
 $(foreach t,$(TESTS),$(eval $(call TEST,$(t))))
@@ -129,7 +129,7 @@ $(B)/%.o: %.C Makefile
 	@mkdir -p $(@D); echo "CXX  $<"
 	@$(CXX) $(CXXFLAGS) $(INC) -MMD -MP -c $< -o $@
 
-test: all testPrograms ## build and run every test (at most 20 minutes; OPT=Sanitize: hours)
+test: all testPrograms ## install what is missing, build and run every test (at most 20 minutes; OPT=Sanitize: hours)
 	@ISPF_BIN=$(B)/bin LIMIT=$(if $(filter Release,$(OPT)),1800,36000) bin/runTests $(B)/testPrograms
 
 validate: all ## every tutorial against its reference (at most 2 hours on 2 cores); CASES="a b" runs a choice of them

@@ -61,7 +61,7 @@ csv="sed -i 's/type sine; amp.*2;/type csvFile; file \"a.csv\";/' constant/bound
 refused "no file .*a.csv" "$csv" ispfFsiFoam
 refused "finite number.*a.csv at line 2" "$csv; put a.csv '0,0\n1,nan\n'" ispfFsiFoam
 refused "has 1 columns.*a.csv at line 2" "$csv; put a.csv '0,0\n1\n'" ispfFsiFoam
-refused "finite number.*a.csv at line 1" "$csv; head -c 300 /dev/urandom > a.csv" ispfFsiFoam
+refused "finite number.*a.csv at line 1" "$csv; head -c 300 \"\$(command -v ispfFsiFoam)\" > a.csv" ispfFsiFoam
 refused "a.csv|boundary" "$csv; put a.csv ''" ispfFsiFoam
 refused "unit furlong is not known. Valid units are: .*mm.*particleDict.* at line" "sed -i 's/shape box; min (0 0 0).*/file \"a.stl\"; unit furlong; }/' system/particleDict; put a.stl 'solid a\nendsolid a\n'" generateParticles
 refused "rho.*physicalProperties|'rho'" "put constant/physicalProperties 'rho -1; mu 1;'" ispfFsiFoam

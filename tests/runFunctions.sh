@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bin/tools: RunFunctions and CleanFunctions; packages that are missing
+# bin/tools: RunFunctions and CleanFunctions
 set -uo pipefail
 tools=$(cd "$(dirname "$0")/../bin/tools" && pwd)
 failures=0
@@ -131,14 +131,4 @@ run cleanCase0 && [ ! -e 0 ] || fail cleanCase0
 mkdir "$scratch/elsewhere"; cd "$scratch/elsewhere"; mkdir 1; touch log.a
 run cleanCase0 && fail "cleaned a folder that is no case"
 [ "$(echo *)" = "1 log.a" ] || fail "removed from a folder that is no case"
-
-# `make test` on a machine without the packages of the tests: says which, and stops unless told to install
-printf '#!/bin/sh\n[ "$3" = doctest-dev ] || echo install ok installed\n' > "$scratch/bin/dpkg-query"
-for program in sudo apt-get; do printf '#!/bin/sh\necho "run: $0 $*"\n' > "$scratch/bin/$program"; done
-chmod +x "$scratch"/bin/*
-packages() { (unset MAKEFLAGS MAKELEVEL; cd "$tools/../.." && PATH=$scratch/bin:$PATH make testPackages "$@"); }
-CI=false packages CXX=false < /dev/null > "$scratch/out" 2>&1 && fail "make test goes on without doctest"
-says "Debian packages to install: doctest-dev$"
-says "Nothing installed"
-packages < /dev/null > "$scratch/out" 2>&1 || fail "make test asks though nothing is missing: $(cat "$scratch/out")"
 [ $failures = 0 ]

@@ -2,6 +2,7 @@
 #include "boundaryContent.H"
 
 #include <algorithm>
+#include <limits>
 
 namespace ispf
 {
@@ -40,7 +41,9 @@ void boundary::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
     for (const word& name : {givenVelocity, givenGradient})
         if (const auto given = cloud.vectors.find(name); given != cloud.vectors.end())
             std::fill(given->second.begin(), given->second.end(), vec4{});
-    for (const openFace& face : content_->openFaces) face.setFlags(cloud, rho, bodyForce);
+    cloud.entering.assign(content_->openFaces.size() + 1, std::numeric_limits<scalar>::quiet_NaN());
+    label number = 0;
+    for (const openFace& face : content_->openFaces) face.setFlags(cloud, rho, bodyForce, ++number);
 }
 
 void boundary::clampSolids(particleCloud& cloud, const List<vec4>& x0, const dictionary& patches)
@@ -94,6 +97,7 @@ void boundary::updateGhosts(particleCloud& cloud) const
 {
     cloud.clearGhosts();
     content_->walls.addRigid(cloud);
+    if (cloud.wallsApart) content_->walls.addSurface(cloud);
     content_->facing.assign(cloud.nGhosts(), vector::Zero());
     content_->mirror.addImages(cloud, content_->walls, content_->facing);
     content_->group.addImages(cloud, content_->facing);

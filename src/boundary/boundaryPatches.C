@@ -99,13 +99,32 @@ void boundary::content::checkLeavingWalls(scalar t, scalar dx) const
     }
 }
 
-faceMesh boundary::content::meshOf(const word& name, const dictionary& dict, const word& caseFolder,
-                                   const particleCloud& cloud) const
+namespace
 {
-    const bool plane = dict.found("surface") && dict.get<word>("surface") == "plane";
-    triSurface s = plane ? walls.rectangle(dict.get<vector>("point", dims::length),
-                                           nonZero(dict, "normal").normalized())
-                         : readPatch(caseFolder, name, dict);
+
+bool isPlane(const dictionary& dict)
+{
+    return dict.found("surface") && dict.get<word>("surface") == "plane";
+}
+
+}  // namespace
+
+// A plane ends at walls, at symmetry planes and cyclic sides, and at other open faces that are planes
+faceMesh boundary::content::meshOf(const word& name, const dictionary& patches,
+                                   const word& caseFolder, const particleCloud& cloud) const
+{
+    const auto placeOf = [](const dictionary& dict) {
+        return std::make_pair(dict.get<vector>("point", dims::length),
+                              vector(nonZero(dict, "normal").normalized()));
+    };
+    const dictionary& dict = patches.subDict(name);
+    planeLattice::planes ends;
+    for (const label index : openIndex)
+        if (const word& other = balance[index].name; other != name)
+            if (const dictionary& d = patches.subDict(other); isPlane(d))
+                ends.push_back(placeOf(d));
+    triSurface s = isPlane(dict) ? walls.rectangle(placeOf(dict).first, placeOf(dict).second, ends)
+                                 : readPatch(caseFolder, name, dict);
     return s.empty() ? faceMesh() : faceMesh(std::move(s), group, cloud);
 }
 
@@ -120,7 +139,7 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
         const dictionary& dict = patches.subDict(name);
         openFaces.emplace_back(name, dict, caseFolder,
                                openFace::setting{group, cloud, sites.stripLayers(),
-                                                 meshOf(name, dict, caseFolder, cloud),
+                                                 meshOf(name, patches, caseFolder, cloud),
                                                  [&](const vector& x) { return walls.holds(x); }});
     }
     const auto allowed = [&](const vector& x, scalar distance) {

@@ -41,12 +41,13 @@ private:
 
 }  // namespace
 
-void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bodyForce) const
+void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bodyForce,
+                        label number) const
 {
     findFeet(cloud);
     List<scalar>& slope = cloud.scalars[slopeField];
     slope.resize(cloud.n(), 0);
-    if (inflow_) return setVelocity(cloud);
+    if (inflow_) return setVelocity(cloud, number);
     parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
         for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
         {
@@ -61,7 +62,7 @@ void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
     });
 }
 
-void openFace::setVelocity(particleCloud& cloud) const
+void openFace::setVelocity(particleCloud& cloud, label number) const
 {
     const List<scalar>& slope = cloud.scalars.at(slopeField);
     List<vec4>&velocity = cloud.vectors[givenVelocity], &gradient = cloud.vectors[givenGradient];
@@ -72,13 +73,30 @@ void openFace::setVelocity(particleCloud& cloud) const
             known_[i].u = cloud.Up[i].xyz();
             const surfaceFoot& f = known_[i].foot;
             if (!f.found) continue;
-            velocity[i] = vec4::from(inflow_->velocity(f.foot, f.normal));
+            velocity[i] = vec4::from(inflow_->velocity(f.foot, f.normal), number);
             gradient[i] = vec4::from(slope[i] * f.normal);
             if (f.depth > 0) cloud.uFixed[i] = 1, cloud.Up[i].setXyz(velocity[i].xyz());
         }
     });
+    if (!mesh_.empty()) cloud.entering[number] = inflow_->mean() * mesh_.area();
+    checkFilled(cloud);
     flux_ = 0;
     for (const scalar q : givenFlux(cloud)) flux_ -= q;
+}
+
+// Without fluid beyond the face nothing would enter or leave, and no one would be told
+void openFace::checkFilled(const particleCloud& cloud) const
+{
+    if (inflow_->mean() == 0) return;
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (const surfaceFoot& f = known_[i].foot; f.found && f.depth > 0) return;
+    const scalar wide = mesh_.empty() ? 0 : std::pow(mesh_.area(), 1.0 / (cloud.nDims - 1)) / dx_;
+    throw fatalError("Open patch " + name_ + ": no fluid is left in the strip of " +
+                         str(depth_ / dx_) + " dx beyond it, so that nothing can pass" +
+                         (wide > 0 ? "; the face is " + str(wide, 3) + " dx wide" : word()) +
+                         ". Does a wall reach across the strip? Prolong the vessel before the "
+                         "opening, or take a smaller dx",
+                     where_);
 }
 
 void openFace::keepAlongNormals(particleCloud& cloud) const
@@ -111,10 +129,10 @@ List<scalar> openFace::givenFlux(const particleCloud& cloud) const
     return perZone;
 }
 
-// The velocity close before the surface, by feet on it: a mean, and the mean of what it missed (twicing, Tukey
+// Velocity or pressure of the fluid close before the surface, by feet on it: a mean, and the mean of what it missed (twicing, Tukey
 // 1977, Exploratory Data Analysis).  Alone a mean is too fast beside walls, and the strip carries 1 to 2 %
 // more than the fluid before it: the one thins out, the other thickens
-struct openFace::velocityBefore
+struct openFace::valueBefore
 {
     const particleCloud& cloud;
     scalar radius;
@@ -122,13 +140,14 @@ struct openFace::velocityBefore
     List<label> index;
     List<vector> value;
 
-    velocityBefore(const openFace& face, const particleCloud& c)
+    template <class ValueOf>
+    valueBefore(const openFace& face, const particleCloud& c, const ValueOf& valueOf)
         : cloud(c), radius(1.5 * face.dx_), feet(radius)
     {
         for (label i = cloud.nSolid(); i < cloud.n(); ++i)
             if (const surfaceFoot& f = face.known_[i].foot;
                 f.found && f.depth <= 0 && f.depth > -face.depth_)
-                feet.add(f.foot), index.push_back(i), value.push_back(cloud.Up[i].xyz());
+                feet.add(f.foot), index.push_back(i), value.push_back(valueOf(i));
         List<vector> twice(value.size());
         parallelFor(
             label(value.size()),
@@ -213,7 +232,7 @@ struct openFace::slopeBefore
     }
 };
 
-scalar openFace::fluxOf(const particleCloud& cloud, const velocityBefore& velocity) const
+scalar openFace::fluxOf(const particleCloud& cloud, const valueBefore& velocity) const
 {
     constexpr std::uint8_t any = 255;  // no zone has this number
     scalar flux = 0;
@@ -235,6 +254,7 @@ scalar openFace::fluxOf(const particleCloud& cloud, const velocityBefore& veloci
     return flux;
 }
 
+// Walls apart, fluid beyond a given velocity has the pressure before the surface: it is told, and has no effect.
 // The slope of the pressure is carried on, and, where that is given, the strip takes the velocity before the
 // surface, averaged over 1.5 dx along it.  Over a wider reach the flow along the surface would run into a wall or
 // away from it: nothing in the strip holds it back
@@ -242,8 +262,14 @@ void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, sc
                             scalar dt) const
 {
     findFeet(cloud);
-    std::optional<velocityBefore> velocity;
-    if (!inflow_) velocity.emplace(*this, cloud), flux_ = fluxOf(cloud, *velocity);
+    std::optional<valueBefore> velocity, pressure;
+    if (!inflow_)
+    {
+        velocity.emplace(*this, cloud, [&](label i) { return cloud.Up[i].xyz(); });
+        flux_ = fluxOf(cloud, *velocity);
+    }
+    else if (cloud.wallsApart)
+        pressure.emplace(*this, cloud, [&](label i) { return vector(cloud.Up[i][3], 0, 0); });
     const slopeBefore slope(*this, cloud, friction, rho, dt);
     List<scalar>& carried = cloud.scalars.at(slopeField);
     parallelFor(
@@ -254,7 +280,14 @@ void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, sc
                 const surfaceFoot& f = known_[i].foot;
                 if (!f.found || f.depth < -(inflow_ ? depth_ : dx_)) continue;
                 carried[i] = slope.at(f, cloud.zone[i]);
-                if (f.depth <= 0 || !velocity) continue;
+                if (f.depth <= 0) continue;
+                if (pressure)
+                {
+                    vector p(cloud.Up[i][3], 0, 0);
+                    pressure->mean(f.foot, cloud.zone[i], p);
+                    cloud.Up[i][3] = p[0];
+                }
+                if (!velocity) continue;
                 vector u = cloud.Up[i].xyz();
                 velocity->mean(f.foot, cloud.zone[i], u);
                 cloud.Up[i].setXyz(u);

@@ -56,6 +56,7 @@ planeLattice::axis planeLattice::axisOf(const vector& e, const List<wall>& walls
         if (normal.dot(e) > 0) a.high = at, a.highBound = true, a.highWall = wall;
     };
     for (const auto& [point, normal] : group_->planes()) bound(point, normal, -1);
+    for (const auto& [point, normal] : ends_) bound(point, normal, -1);
     for (const wall& w : walls)
         if (still(w)) bound(w.point, w.normal, carries(w) ? label(&w - walls.data()) : -1);
 
@@ -206,6 +207,26 @@ triSurface planeLattice::rectangle(const vector& point, const vector& normal,
     return s;
 }
 
+List<planeLattice::element> planeLattice::elements(const wall& w, const List<wall>& walls,
+                                                   const boundBox& region) const
+{
+    planeLattice here = *this;
+    here.covered_ = region;
+    const frame f = here.frameOf(w.normal, walls);
+    const auto width = [&](const axis& a) {
+        return a.lowBound && a.highBound ? (a.high - a.low) / scalar(a.inside.size()) : dx_;
+    };
+    const scalar area = width(f.a[1]) * (nDims_ == 3 ? width(f.a[2]) : 1);
+    List<element> all;
+    for (const scalar q : f.a[1].inside)
+        for (const scalar r : f.a[2].inside)
+        {
+            const vector x = w.point.dot(w.normal) * w.normal + q * f.a[1].e + r * f.a[2].e;
+            if (wanted(x)) all.push_back({x, area});
+        }
+    return all;
+}
+
 scalar planeLattice::area(const wall& w, const List<wall>& walls) const
 {
     const frame f = frameOf(w.normal, walls);
@@ -216,12 +237,14 @@ scalar planeLattice::area(const wall& w, const List<wall>& walls) const
 }
 
 triSurface planeLattice::rectangle(const vector& point, const vector& normal,
-                                   const List<wall>& walls) const
+                                   const List<wall>& walls, const planes& ends) const
 {
-    const frame f = frameOf(normal, walls);
+    planeLattice here = *this;
+    here.ends_ = ends;
+    const frame f = here.frameOf(normal, walls);
     for (int d = 1; d < nDims_; ++d)
         if (!f.a[d].lowBound || !f.a[d].highBound) return {};
-    return rectangle(point, normal, walls, covered_);
+    return here.rectangle(point, normal, walls, covered_);
 }
 
 }  // namespace ispf

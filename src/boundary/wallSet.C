@@ -3,8 +3,10 @@
 #include "siteFile.H"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace ispf
 {
@@ -12,7 +14,7 @@ namespace ispf
 void wallSet::read(const word& caseFolder, const dictionary& patches, const imageGroup& group,
                    const particleCloud& cloud, scalar support, scalar t0)
 {
-    support_ = support, nDims_ = cloud.nDims;
+    support_ = support, nDims_ = cloud.nDims, dx_ = cloud.dx, group_ = &group;
     for (const wall& w : walls_)
         if (nDims_ == 2 && !w.motion.inPlane())
             patches.subDict(w.name).fail(patches.subDict(w.name).found("motion")     ? "motion"
@@ -33,7 +35,8 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
     for (wall& w : walls_)
         std::erase_if(w.rigid, [&](const vector& x) { return group.beyond(x) > 1e-6 * cloud.dx; });
     findFeet();
-    lattice_.cover(cloud, walls_);
+    if (cloud.wallsApart) makeElements(cloud);
+    cover(cloud);
 }
 
 // A neighbour that sees a rigid particle takes its velocity for that of the wall between them.  Behind a wall that
@@ -407,6 +410,132 @@ void wallSet::addRigid(particleCloud& cloud) const
                              whose = w.motion.rotates() ? foot : at;
                 cloud.addRigid(at, w.velocity.at(whose), foot, w.gained(whose));
             }
+}
+
+// Halves a triangle at its longest edge until all are shorter than dx, without what lies further than reach off the region
+template <class Visit>
+void wallSet::split(const std::array<vector, 3>& t, const boundBox& region, scalar reach,
+                    const Visit& visit) const
+{
+    int longest = 0;
+    scalar length = 0;
+    for (int k = 0; k < 3; ++k)
+        if (const scalar l = (t[k] - t[(k + 1) % 3]).norm(); l > length) longest = k, length = l;
+    const scalar off = std::sqrt(region.distSqr((t[0] + t[1] + t[2]) / 3));
+    if (!(off < reach + length)) return;
+    if (length <= dx_) return visit(t);
+    const vector &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3],
+                 middle = 0.5 * (a + b);
+    split({a, middle, c}, region, reach, visit), split({middle, b, c}, region, reach, visit);
+}
+
+// Facets that particles may come near, no longer than dx; those that share a cell of dx and look the same way as one: areas add up, the centre is
+// their mean.  A facet beyond a symmetry plane or cyclic side is an image
+void wallSet::makeElements(const particleCloud& cloud)
+{
+    elements_.clear();
+    std::map<std::array<label, 7>, size_t> known;  // wall, cell, direction -> element
+    List<scalar> weight;
+    const auto add = [&](size_t body, label w, const vector& x, const vector& S) {
+        std::array<label, 7> key = {w};
+        for (int d = 0; d < 3; ++d)
+        {
+            key[1 + d] = label(std::floor(x[d] / dx_));
+            key[4 + d] = label(std::lround(2 * S[d] / S.norm()));
+        }
+        const auto [at, isNew] = known.try_emplace(key, elements_.size());
+        if (isNew)
+            elements_.push_back({body, w, vector::Zero(), vector::Zero()}), weight.push_back(0);
+        element& e = elements_[at->second];
+        scalar& sum = weight[at->second];
+        e.x = (sum * e.x + S.norm() * x) / (sum + S.norm());
+        e.S += S, sum += S.norm();
+    };
+    boundBox region;
+    for (label i = 0; i < cloud.n(); ++i) region.add(cloud.x[i].xyz());
+    const scalar reach = region.diagonal() + 10 * support_;
+    for (size_t b = 0; b < bodies_.size(); ++b)
+    {
+        const body& own = bodies_[b];
+        if (!own.surface->mesh()) continue;
+        const triSurface& s = *own.surface->mesh();
+        const scalar depth = perDepth(*own.surface);
+        const auto facet = [&](label w, const vector& p, const vector& q, const vector& r) {
+            vector x = (p + q + r) / 3, S = 0.5 * depth * (q - p).cross(r - p);
+            if (nDims_ == 2) x[2] = S[2] = 0;
+            if (group_->beyond(x) > 0 || S.isZero(0)) return;
+            add(b, w, x, S);
+            if (own.twoSided) add(b, w, x, -S);
+        };
+        for (label t = 0; t < s.size(); ++t)
+            split({s.corner(t, 0), s.corner(t, 1), s.corner(t, 2)}, region, reach,
+                  [&](const std::array<vector, 3>& f) {
+                      facet(own.walls[s.patch[t]], f[0], f[1], f[2]);
+                  });
+    }
+}
+
+void wallSet::cover(const particleCloud& cloud)
+{
+    lattice_.cover(cloud, walls_);
+    coverPlanes(cloud);
+}
+
+// The region depends on where particles are now, not on where they have been: a restart finds the same elements
+void wallSet::coverPlanes(const particleCloud& cloud)
+{
+    if (!cloud.wallsApart || cloud.n() == 0 ||
+        std::none_of(walls_.begin(), walls_.end(), [](const wall& w) { return w.plane; }))
+        return;
+    boundBox box;
+    for (label i = 0; i < cloud.n(); ++i) box.add(cloud.x[i].xyz());
+    const scalar step = 8 * dx_;
+    boundBox region;
+    region.add(step * ((box.min.array() - support_) / step).floor().matrix());
+    region.add(step * ((box.max.array() + support_) / step).ceil().matrix());
+    if (!planesCovered_.empty() && planesCovered_.min == region.min &&
+        planesCovered_.max == region.max)
+        return;
+    planesCovered_ = region, planeElements_.clear();
+    for (size_t b = 0; b < bodies_.size(); ++b)
+        for (const label w : bodies_[b].walls)
+            if (walls_[w].plane)
+                for (const planeLattice::element& e : lattice_.elements(walls_[w], walls_, region))
+                    planeElements_.push_back({b, w, e.x, e.area * walls_[w].normal});
+}
+
+// Share of an element, at x now, that lies in the fluid and not behind the surface of another body
+scalar wallSet::uncovered(const element& e, const vector& x) const
+{
+    const scalar width = nDims_ == 3 ? std::sqrt(e.S.norm()) : e.S.norm();
+    scalar share = 1;
+    for (size_t b = 0; b < bodies_.size(); ++b)
+    {
+        if (b == e.body || bodies_[b].twoSided) continue;
+        const vector y = frame(bodies_[b]).toBody(x);
+        if (bodies_[b].surface->surelyFar(y)) continue;
+        const surfaceFoot f = bodies_[b].surface->find(y);
+        if (f.found && f.aside < width)
+            share = std::min(share, std::clamp(0.5 - f.depth / width, 0.0, 1.0));
+    }
+    return share;
+}
+
+void wallSet::addSurface(particleCloud& cloud) const
+{
+    if (empty() || cloud.n() == 0) return;
+    const occupancy cells(cloud, support_);
+    for (const List<element>* all : {&elements_, &planeElements_})
+        for (const element& e : *all)
+        {
+            const wall& w = walls_[e.wall];
+            const vector x = w.frame.toSpace(e.x);
+            if (!cells.near(x)) continue;
+            const scalar share = uncovered(e, x);
+            if (share == 0) continue;
+            const vector S = 0.5 * share * (w.frame.turn(e.S) + w.after.turn(e.S));
+            cloud.surface.push_back({x, S, w.velocity.at(x), !w.slip});
+        }
 }
 
 }  // namespace ispf

@@ -29,7 +29,7 @@ bool clampedMove(const particleCloud& cloud)
 
 }  // namespace
 
-void enclosedFluid::setup(const monolithicRows& system, const solidSurface* surface)
+void enclosedFluid::setup(const solidGradient& gradientOf, const solidSurface* surface)
 {
     surface_ = surface;
     const particleCloud& cloud = c_.cloud;
@@ -62,17 +62,17 @@ void enclosedFluid::setup(const monolithicRows& system, const solidSurface* surf
         b.free = area == 0, b.known = !std::isnan(b.pushed) && !moved, wetted += area;
         if (b.free) refusePush(c_, swept, b.zones);
     }
-    allFree_ = wetted > 0 && loadsItself(system, wetted);
+    allFree_ = wetted > 0 && loadsItself(gradientOf, wetted);
 }
 
 // Does the same pressure in all particles leave the solid alone?  Then nothing tells its level
-bool enclosedFluid::loadsItself(const monolithicRows& system, scalar area) const
+bool enclosedFluid::loadsItself(const solidGradient& gradientOf, scalar area) const
 {
     const particleCloud& cloud = c_.cloud;
     if (*std::max_element(cloud.pFixed.begin(), cloud.pFixed.end())) return false;
     const List<vec4> unit(cloud.nAll(), vec4{simd4{0, 0, 0, 1}});
     List<vec4> left(cloud.nSolid());
-    system.solidGradient(unit, left);
+    gradientOf(unit, left);
     scalar force = 0;
     for (label i = 0; i < cloud.nSolid(); ++i)
         if (!cloud.uFixed[i]) force += cloud.volume() * left[i].xyz().norm();
@@ -116,8 +116,9 @@ void enclosedFluid::account(particleCloud& cloud, scalar dt, const List<tensor>&
     {
         s.booked += b.added * dt;
         if (!b.free && b.known) expectNext(b, cofactor, s);
+        // adjointPair counts every particle with the volume that it was made with
         for (const label z : b.zones)
-            if (!c_.source.empty()) s.expansion[z] *= 1 + c_.source[z] * dt;
+            if (!c_.source.empty() && !cloud.wallsApart) s.expansion[z] *= 1 + c_.source[z] * dt;
     }
     s.write(cloud);
 }

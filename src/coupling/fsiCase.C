@@ -34,6 +34,7 @@ fsiCase::fsiCase(Time& t) : time(t)
     schemes = dictionary::fromFile(time.systemFile("sphSchemes"));
     solution = dictionary::fromFile(time.systemFile("sphSolution"));
     readCloud(time, cloud);
+    readPair();
     readProperties();
     readKernel();
     readBoundary();
@@ -46,6 +47,18 @@ fsiCase::fsiCase(Time& t) : time(t)
             d && (coupling == "monolithic") != (word(name) == "monolithic"))
             d->markAllRead();
     if (coupling == "monolithic") schemes.found("divergence"), schemes.found("gradient");
+}
+
+// Divergence and gradient of the fluid: each the other's adjoint, or each exact of linear fields
+void fsiCase::readPair()
+{
+    cloud.wallsApart =
+        schemes.chooseOrDefault("pair", {"corrected", "adjoint"}, "adjoint") == "adjoint";
+    if (!cloud.wallsApart) return;
+    for (const char* key : {"divergence", "gradient"})
+        if (schemes.found(key))
+            schemes.fail(key, "With pair adjoint, the default, '" + word(key) +
+                                  "' has no effect: remove it, or set pair corrected");
 }
 
 void fsiCase::readBoundary()
@@ -63,6 +76,7 @@ void fsiCase::read()
 {
     particleCloud then;
     readCloud(time, then);
+    then.wallsApart = cloud.wallsApart;
     const auto same = [](const zoneInfo& a, const zoneInfo& b) { return a.name == b.name; };
     if (then.nSolid() != cloud.nSolid() || then.nDims != cloud.nDims || then.dx != cloud.dx ||
         !std::equal(then.zones.begin(), then.zones.end(), cloud.zones.begin(), cloud.zones.end(),
@@ -280,6 +294,7 @@ void fsiCase::report() const
            << "kernel: " << kernel->name() << ", h = " << str(kernel->h()) << " m, support "
            << str(kernel->support() / cloud.dx) << " dx\n"
            << "coupling: " << coupling << "\n"
+           << "pair: " << (cloud.wallsApart ? "adjoint" : "corrected") << "\n"
            << "fluid: rho = " << str(rho) << " kg/m3, mu = " << str(mu) << " Pa s\n"
            << "structure: " << (structure ? structure->description() : "none") << "\n"
            << "body force: " << (bodyForce.empty() ? "none" : "given") << "\n"

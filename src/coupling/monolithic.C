@@ -18,8 +18,7 @@
 #include "densityFeedback.H"
 #include "FGMRES.H"
 #include "monolithicPreconditioner.H"
-#include "particleShifting.H"
-#include "shiftingFrame.H"
+#include "shiftingOfCase.H"
 #include "stepReport.H"
 #include "volumeLedger.H"
 #include "worstRow.H"
@@ -55,8 +54,8 @@ public:
     explicit monolithic(fsiCase& c)
         : c_(c),
           dict_(c.solution.subOrEmptyDict("monolithic")),
-          system_(c),
-          preconditioner_(system_, dict_),
+          system_(coupledSystem::New(c)),
+          preconditioner_(*system_, dict_),
           theta_(dict_.getInRangeOrDefault("theta", 0, 1, c.structure ? 0.95 : 0)),
           alpha_(dict_.getInRangeOrDefault("volumeFeedback", 0, 1, 0.1)),
           tolerance_(dict_.getInRangeOrDefault("tolerance", 1e-14, 0.1, 1e-4)),
@@ -64,10 +63,10 @@ public:
           maxIter_(dict_.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
           makesGood_(dict_.getOrDefault("divergenceDefect", true)),
           endless_(shiftingFrame(c) == "mean"),
-          shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c)),
+          shifting_(c),
           density_(c.solution, *c.kernel, c.cloud)
     {
-        system_.enclosed().makeGood(makesGood_);
+        system_->enclosed().makeGood(makesGood_);
         if (!c.structure) return;
         c.cloud.scalars[missedField].resize(c.cloud.n(), 0);
         K_ = c.structure->tangentPattern();
@@ -100,12 +99,12 @@ private:
 
     fsiCase& c_;
     dictionary dict_;
-    monolithicSystem system_;
+    std::unique_ptr<coupledSystem> system_;
     monolithicPreconditioner preconditioner_;
     scalar theta_, alpha_, tolerance_, absTolerance_;
     label maxIter_;
     bool makesGood_, endless_;
-    particleShifting shifting_;
+    shiftingOfCase shifting_;
     densityFeedback density_;
 
     std::unique_ptr<volumeConstraint> volume_;
@@ -170,7 +169,7 @@ List<scalar> monolithic::guess(scalar dt) const
         simd4 up = cloud.Up[i].s;
         if (has) up += ratio * (up - old->second[i].s);
         for (int a = 0; a < 3; ++a) z[4 * i + a] = cloud.uFixed[i] ? cloud.Up[i][a] : up[a];
-        z[4 * i + 3] = cloud.pFixed[i] ? cloud.pGiven[i] : up[3];
+        z[4 * i + 3] = cloud.pHeld(i) ? cloud.heldPressure(i) : up[3];
     }
     return z;
 }
@@ -219,7 +218,7 @@ void monolithic::account(scalar dt)
         volume_->overStep(c_.cloud.Up, dt, cofactor, missed);
         std::copy(missed.begin(), missed.end(), c_.cloud.scalars.at(missedField).begin());
     }
-    system_.enclosed().account(c_.cloud, dt, cofactor);
+    system_->enclosed().account(c_.cloud, dt, cofactor);
 }
 
 // Solves for z = {u, v, w, p} of the end of the step; an empty text, or why it cannot be accepted
@@ -230,14 +229,14 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     for (label i = 0; i < cloud.nSolid(); ++i) q[i] = feedback(i, dt) + missed(i, dt);
     for (label i = cloud.nSolid(); i < cloud.n() && !c_.source.empty(); ++i)
         q[i] = c_.source[cloud.zone[i]];
-    if (c_.structure) system_.setup(dt, volume_.get(), &surface_, &K_);
-    else system_.setup(dt, nullptr, nullptr, nullptr);
+    if (c_.structure) system_->setup(dt, volume_.get(), &surface_, &K_);
+    else system_->setup(dt, nullptr, nullptr, nullptr);
     if (density_.on())
-        density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, system_.enclosed().bodyOf()),
+        density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, system_->enclosed().bodyOf()),
                        [&](label i) { return c_.isCut(i); });
-    system_.enclosed().addDefect(q);
+    system_->enclosed().addDefect(q);
     preconditioner_.setup();
-    system_.rightHandSide(theta_, springForce_, q, b);
+    system_->rightHandSide(theta_, springForce_, q, b);
 
     z = guess(dt);
     solverControls controls;
@@ -245,8 +244,8 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     controls.absTol =
         std::sqrt(scalar(cloud.n())) * std::max(absTolerance_ * velocityScale(), rounding(dt, z));
     FGMRES solver(controls, "Up", maxIter_);
-    const solverPerformance result = solver.solve(system_, preconditioner_, b, z);
-    system_.enclosed().keepLevel(cloud, z);
+    const solverPerformance result = solver.solve(*system_, preconditioner_, b, z);
+    system_->enclosed().keepLevel(cloud, z);
     result.print();
     printContinuityErrors(b, z, dt);
     // measured: a tenth of the tolerance's digits still steps stably, no reduction at all does not
@@ -254,7 +253,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
         return "the coupled system did not converge (residual " + str(result.finalResidual, 3) +
                " of " + str(result.initialResidual, 3) + " after " +
                std::to_string(result.nIterations) + " iterations), worst at " +
-               cloud.describe(worstRow(system_, b, z) / 4);
+               cloud.describe(worstRow(*system_, b, z) / 4);
     const word reason = tooFar(dt, z);
     return reason.empty() ? gains(z) : reason;
 }
@@ -263,7 +262,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
 void monolithic::printContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt)
 {
     List<scalar> Az(b.size()), left(b.size() / 4);
-    system_.apply(z, Az);
+    system_->apply(z, Az);
     for (size_t i = 0; i < left.size(); ++i) left[i] = (Az[4 * i + 3] - b[4 * i + 3]) / c_.cloud.dx;
     ispf::printContinuityErrors(c_.cloud, left, dt);
 }
@@ -306,7 +305,7 @@ word monolithic::gains(const List<scalar>& z) const
     // what only drifts is left with rounding
     if (cellReynolds(fastest) < resolved || fastest < 1e-6 * velocityScale()) return "";
     const scalar part =
-        system_.workFromNothing(frame) / (0.5 * c_.rho * c_.cloud.volume() * squares);
+        system_->workFromNothing(frame) / (0.5 * c_.rho * c_.cloud.volume() * squares);
     if (!(part > mostFromNothing)) return "";
     return "in it the pressure gives the flow " + str(100 * part, 3) +
            " % of its kinetic energy out of nothing";
@@ -340,10 +339,10 @@ void monolithic::advance(scalar t, scalar dt, int depth)
     particleCloud& cloud = c_.cloud;
     const particleCloud before = cloud;
     c_.updateNeighbours(t, t + dt);
-    system_.setStep(t, t + dt);
+    system_->setStep(t, t + dt);
     structureState();
     List<scalar> z;
-    system_.hydrostatic().take(cloud);
+    system_->hydrostatic().take(cloud);
     const word reason = atTime(t + dt, [&] { return solve(dt, z); });
     if (!reason.empty())
     {
@@ -359,12 +358,11 @@ void monolithic::advance(scalar t, scalar dt, int depth)
     }
     accept(z, dt);
     account(dt);
-    system_.hydrostatic().giveBack(cloud);
+    system_->hydrostatic().giveBack(cloud);
 
     c_.followOpen(dt);
     // Shift first, with the neighbours at hand, then move: x^{n+1} = x^n + dt u^{n+1}
-    shifting_.shift(cloud, c_.list, c_.correction, dt,
-                    [&](label i) { return c_.walls->nearOpen(i); });
+    shifting_.shift(dt, [&] { return system_->viscousLoss(cloud.Up); });
     for (label i = 0; i < cloud.n(); ++i)
         cloud.x[i].s += dt * simd4{cloud.Up[i][0], cloud.Up[i][1], cloud.Up[i][2], 0};
     c_.walls->exchange(cloud, t + dt);

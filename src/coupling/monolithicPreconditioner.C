@@ -16,7 +16,7 @@ const word solidFactor = "solidFactor";
 
 }  // namespace
 
-monolithicPreconditioner::monolithicPreconditioner(const monolithicSystem& system,
+monolithicPreconditioner::monolithicPreconditioner(const coupledSystem& system,
                                                    const dictionary& dict)
     : system_(system),
       beta_(dict.getInRangeOrDefault("beta", 0, 10, 1)),
@@ -74,15 +74,15 @@ void monolithicPreconditioner::buildLaplacian()
     // (dp/dn = 0); rows of given pressure carry the diagonal alone.
     const auto row = [&](label i, auto&& entry) {
         scalar d = 0;
-        if (cloud.pFixed[i]) return d;
-        for (std::int64_t k = c.list.start[i]; k < c.list.start[i + 1]; ++k)
+        if (cloud.pHeld(i)) return d;
+        for (std::int64_t k = c.list.own[i]; k < c.list.wall[i]; ++k)
         {
             label j = c.list.index[k];
             if (j >= n) j = cloud.ghostSource(j);
-            if (j < 0 || j == i) continue;
+            if (j == i) continue;
             const scalar a = -4 * c.list.F[k] * tau(i) * tau(j) / (tau(i) + tau(j));
             d += a;
-            if (k < c.list.mid[i] && !cloud.pFixed[j]) entry(j, -a);
+            if (k < c.list.mid[i] && !cloud.pHeld(j)) entry(j, -a);
         }
         return d;
     };
@@ -119,7 +119,7 @@ void monolithicPreconditioner::momentum(const List<scalar>& r, List<vec4>& u) co
     if (system_.tangent()) solid_.solve(A, cloud, u);
 
     cloud.fillGhosts(u, true);
-    system_.rows().viscousNeighbours(u, work_);
+    system_.viscousNeighbours(u, work_);
     parallelFor(n - nSolid, [&](label begin, label end) {
         for (label i = nSolid + begin; i < nSolid + end; ++i)
         {
@@ -135,13 +135,13 @@ void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) con
     const label n = cloud.n();
     momentum(r, u_);
     cloud.fillGhosts(u_, true);
-    system_.rows().divergence(u_, div_);
+    system_.divergence(u_, div_);
     b_.resize(n), s_.resize(n);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
             div_[i] -= r[4 * i + 3] / cloud.dx;
-            b_[i] = cloud.pFixed[i] ? 0 : -div_[i];
+            b_[i] = cloud.pHeld(i) ? 0 : -div_[i];
         }
     });
     multigrid_->apply(b_, s_);
@@ -152,11 +152,11 @@ void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) con
         {
             const scalar share = cloud.isFluid(i) ? 1 : solidShare;
             const scalar p = share * s_[i] - bulk_[i] * div_[i];
-            phi_[i].s = simd4{0, 0, 0, cloud.pFixed[i] ? r[4 * i + 3] : p};
+            phi_[i].s = simd4{0, 0, 0, cloud.pHeld(i) ? r[4 * i + 3] : p};
         }
     });
     cloud.fillGhosts(phi_, true);
-    system_.rows().pressureGradient(phi_, work_);
+    system_.gradient(phi_, work_);
     z.resize(4 * n);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)

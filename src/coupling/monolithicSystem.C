@@ -1,48 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "monolithicSystem.H"
 
-#include <numeric>
-
 namespace ispf
 {
 
-void monolithicSystem::setup(scalar dt, const volumeConstraint* volume, const solidSurface* surface,
-                             const blockMatrix3* K)
+std::unique_ptr<coupledSystem> newMonolithicSystem(fsiCase& c)
 {
-    const particleCloud& cloud = c_.cloud;
-    dt_ = dt, K_ = K;
-    rows_.setup(cloud, c_.list, c_.correction);
-    rows_.setSolid(volume, surface);
-    const scalar inertia = c_.rho * cloud.volume() / dt;
-    // clamped particles carry no tangent among themselves: they weigh as the mean free one does
-    scalar meanTangent = 0;
-    label nFree = 0;
-    for (label i = 0; K && i < cloud.nSolid(); ++i)
-        if (!cloud.uFixed[i]) meanTangent += K->diagonal[i].trace() / cloud.nDims, ++nFree;
-    if (nFree > 0) meanTangent /= nFree;
-    diagonal_.resize(cloud.n()), tau_.resize(cloud.n());
-    for (label i = 0; i < cloud.n(); ++i)
-    {
-        diagonal_[i] = inertia - viscousFactor() * rows_.sumF()[i];
-        if (K && i < cloud.nSolid())
-            diagonal_[i] +=
-                dt * (cloud.uFixed[i] ? meanTangent : K->diagonal[i].trace() / cloud.nDims);
-        tau_[i] = cloud.volume() / diagonal_[i];
-    }
-    fluidTau_ = std::accumulate(tau_.begin() + cloud.nSolid(), tau_.end(), scalar(0)) /
-                scalar(cloud.n() - cloud.nSolid());
-    rows_.setTau(tau_, fluidTau_);
-    enclosed_.setup(rows_, surface);
+    return std::make_unique<monolithicSystem>(c);
 }
 
-// Ghosts whose pressure is not that of their source: over a cyclic pair with a drop
-List<std::pair<label, scalar>> monolithicSystem::pressureOffsets() const
+const List<scalar>& monolithicSystem::setupRows(const volumeConstraint* volume,
+                                                const solidSurface* surface)
 {
-    const particleCloud& cloud = c_.cloud;
-    List<std::pair<label, scalar>> offsets;
-    for (label g = cloud.n(); g < cloud.nAll(); ++g)
-        if (const scalar p = cloud.ghostOffset(g)[3]; p != 0) offsets.push_back({g, p});
-    return offsets;
+    rows_.setup(c_.cloud, c_.list, c_.correction);
+    rows_.setSolid(volume, surface);
+    return rows_.sumF();
 }
 
 // In strips C takes the gradient given there for G p (monolithicRows.H)
@@ -51,7 +23,7 @@ void monolithicSystem::leaveToGiven(List<vec4>& gs) const
     const particleCloud& cloud = c_.cloud;
     if (!cloud.vectors.count(givenGradient)) return;
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        if (inStrip(i)) gs[i].setXyz(vector::Zero());
+        if (cloud.velocityGiven(i)) gs[i].setXyz(vector::Zero());
 }
 
 void monolithicSystem::addGiven(List<scalar>& b) const
@@ -61,7 +33,7 @@ void monolithicSystem::addGiven(List<scalar>& b) const
     if (given == cloud.vectors.end()) return;
     gs_.assign(cloud.nAll(), vec4{});
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        if (inStrip(i)) gs_[i].setXyz(given->second[i].xyz());
+        if (cloud.velocityGiven(i)) gs_[i].setXyz(given->second[i].xyz());
     cloud.fillGradientGhosts(gs_);
     rows_.givenPart(gs_, cp_);
     for (label i = 0; i < cloud.n(); ++i)
@@ -77,14 +49,13 @@ void monolithicSystem::addGiven(List<scalar>& b) const
     cloud.fillGhosts(phi_, true);
     rows_.divergence(phi_, cp_);
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        if (inStrip(i)) b[4 * i + 3] += cloud.dx * cp_[i];
+        if (cloud.velocityGiven(i)) b[4 * i + 3] += cloud.dx * cp_[i];
 }
 
 void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce,
                                      const List<scalar>& q, List<scalar>& b) const
 {
     const particleCloud& cloud = c_.cloud;
-    const scalar mass = c_.rho * cloud.volume();
     // u = 0, p = theta p^n with the boundary's values: what the rows give now belongs on the right
     phi_.resize(cloud.nAll());
     for (label i = 0; i < cloud.n(); ++i) phi_[i].s = simd4{0, 0, 0, theta * cloud.Up[i][3]};
@@ -105,19 +76,9 @@ void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce
         cloud.fillGhosts(none, false);
         rows_.pressureGradient(none, drop);
     }
-    b.resize(size());
+    momentumSide(springForce, lap_, drop, b);
     for (label i = 0; i < cloud.n(); ++i)
-    {
-        vector m = mass / dt_ * cloud.Up[i].xyz() - viscousFactor() * lap_[i].xyz();
-        if (!c_.bodyForce.empty())
-            m += mass * (c_.bodyForce[cloud.zone[i]] - hydrostatic_.acceleration());
-        if (i < label(springForce.size())) m += springForce[i].xyz();
-        if (!drop.empty()) m -= cloud.volume() * drop[i].xyz();
-        if (cloud.nDims == 2) m[2] = 0;
-        for (int a = 0; a < 3; ++a)
-            b[4 * i + a] = cloud.uFixed[i] ? cloud.Up[i][a] : m[a] / diagonal_[i];
-        b[4 * i + 3] = cloud.pFixed[i] ? cloud.pGiven[i] : cloud.dx * (q[i] - gp_[i][3] - cp_[i]);
-    }
+        if (!cloud.pFixed[i]) b[4 * i + 3] = cloud.dx * (q[i] - gp_[i][3] - cp_[i]);
     addGiven(b);
     enclosed_.balance(b);
 }
@@ -133,8 +94,6 @@ scalar monolithicSystem::workFromNothing(const vector& frame) const
 void monolithicSystem::apply(const List<scalar>& x, List<scalar>& y) const
 {
     const particleCloud& cloud = c_.cloud;
-    const scalar inertia = c_.rho * cloud.volume() / dt_, V = cloud.volume();
-    const label n = cloud.n(), nSolid = cloud.nSolid();
     phi_.resize(cloud.nAll());
     std::copy(x.begin(), x.end(), reinterpret_cast<scalar*>(phi_.data()));
     enclosed_.dropLevel(phi_);
@@ -143,26 +102,8 @@ void monolithicSystem::apply(const List<scalar>& x, List<scalar>& y) const
     leaveToGiven(gs_);
     cloud.fillGradientGhosts(gs_);
     rows_.secondPass(gs_, cp_);
-    if (K_)
-    {
-        Ku_.resize(nSolid);
-        K_->apply(phi_, Ku_);
-    }
-
-    y.resize(size());
-    parallelFor(n, [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-        {
-            simd4 m = inertia * phi_[i].s + viscousFactor() * lap_[i].s + V * gp_[i].s;
-            if (K_ && i < nSolid) m += dt_ * Ku_[i].s;
-            m /= diagonal_[i];
-            if (cloud.uFixed[i]) m = phi_[i].s;
-            if (cloud.nDims == 2) m[2] = phi_[i].s[2];  // no equation across the plane
-            for (int a = 0; a < 3; ++a) y[4 * i + a] = m[a];
-            y[4 * i + 3] = cloud.pFixed[i] ? phi_[i].s[3] : cloud.dx * (gp_[i].s[3] - cp_[i]);
-        }
-    });
-    enclosed_.balance(y);
+    for (label i = 0; i < cloud.n(); ++i) cp_[i] = gp_[i].s[3] - cp_[i];
+    writeRows(phi_, lap_, gp_, cp_, y);
 }
 
 }  // namespace ispf

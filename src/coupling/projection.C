@@ -15,10 +15,9 @@
 #include "closedBodies.H"
 #include "densityFeedback.H"
 #include "hydrostaticPart.H"
-#include "particleShifting.H"
 #include "projectionLimits.H"
-#include "projectionStep.H"
-#include "shiftingFrame.H"
+#include "fractionalStep.H"
+#include "shiftingOfCase.H"
 #include "stepReport.H"
 
 #include <algorithm>
@@ -45,9 +44,8 @@ public:
           mean_(dict_.chooseOrDefault("positionUpdate", {"symplectic", "mean"}, "symplectic") ==
                 "mean"),
           limits_(c, explicit_, mean_, dict_.subOrEmptyDict("limits")),
-          step_(c.rho, c.mu, explicit_ ? "explicit" : "implicit",
-                operatorSchemes::fromDict(c.schemes), c.solution),
-          shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c)),
+          step_(fractionalStep::New(c, explicit_ ? "explicit" : "implicit")),
+          shifting_(c),
           density_(c.solution, *c.kernel, c.cloud),
           hydrostatic_(c)
     {
@@ -72,8 +70,8 @@ private:
     dictionary dict_;
     bool explicit_, mean_;
     projectionLimits limits_;
-    projectionStep step_;
-    particleShifting shifting_;
+    std::unique_ptr<fractionalStep> step_;
+    shiftingOfCase shifting_;
     densityFeedback density_;
     hydrostaticPart hydrostatic_;
     vector slope_ = vector::Zero();  // of p along cyclic patches with a pressureDrop [Pa/m]
@@ -173,19 +171,20 @@ void projection::solve(const stencil& s, scalar dt)
         density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, closed),
                        [&](label i) { return c_.isCut(i); });
     hydrostatic_.take(cloud), addSlope(-1, slopeBehind());
-    step_.predict(cloud, s, accelerations(slope_), dt);
-    step_.project(cloud, s, q, c_.kernel->support(), dt);
+    step_->setup(cloud, s, *c_.kernel);
+    step_->predict(cloud, s, accelerations(slope_), dt);
+    step_->project(cloud, s, q, c_.kernel->support(), dt);
     hydrostatic_.giveBack(cloud), addSlope(1, slope_);
     if (slope_.isZero(0)) cloud.history.erase(slopeOfStep);
     else cloud.history[slopeOfStep] = {slope_[0], slope_[1], slope_[2]};
-    step_.printContinuityErrors(cloud, s, q, dt);
+    step_->printContinuityErrors(cloud, s, q, dt);
     density_.book(cloud, dt);
 }
 
 void projection::step(scalar t, scalar dt)
 {
     printCourant(c_.cloud, dt);
-    c_.updateNeighbours(t, t + dt, projectionStep::behind(c_.cloud));
+    c_.updateNeighbours(t, t + dt, fractionalStep::behind(c_.cloud));
     hydrostatic_.setStep(t, t + dt);
     slope_ = c_.walls->pressureSlope();
     particleCloud& cloud = c_.cloud;
@@ -196,8 +195,7 @@ void projection::step(scalar t, scalar dt)
     c_.followOpen(dt);
 
     // shifted with the neighbours at hand, then moved
-    shifting_.shift(cloud, c_.list, c_.correction, dt,
-                    [&](label i) { return c_.walls->nearOpen(i); });
+    shifting_.shift(dt, [&] { return step_->viscousLoss(cloud, dt); });
     move(before, dt);
     c_.walls->keepVelocities(cloud);
     c_.walls->exchange(cloud, t + dt);

@@ -67,12 +67,6 @@ projectionStep::projectionStep(scalar rho, scalar mu, const word& viscosity,
         viscous_ = std::make_unique<projectionViscosity>(solvers.subOrEmptyDict("U"));
 }
 
-scalar projectionStep::behind(const particleCloud& cloud)
-{
-    const auto found = cloud.history.find(projected);
-    return found == cloud.history.end() ? 0 : found->second[0];
-}
-
 // What p as it stands takes from u* in a step
 List<vec4> projectionStep::corrected(const stencil& s, scalar dt) const
 {
@@ -101,7 +95,7 @@ void projectionStep::predict(particleCloud& cloud, const stencil& s, const List<
     {
         List<vec4> dtA(a);
         for (vec4& v : dtA) v.s *= dt;
-        viscous_->solve(cloud, s, dtA, aheadAtWalls(s, dt), dt * nu_);
+        solveViscous(cloud, s, dtA, dt);
         return;
     }
     const List<vec4> lap = sphc::laplacian(s, cloud.Up);
@@ -110,6 +104,27 @@ void projectionStep::predict(particleCloud& cloud, const stencil& s, const List<
         for (label i = begin; i < end; ++i)
             if (!cloud.uFixed[i]) cloud.Up[i].s += velocity * (nu_ * lap[i].s + a[i].s);
     });
+}
+
+// The walls' going ahead is known and belongs to what the step adds
+void projectionStep::solveViscous(particleCloud& cloud, const stencil& s, List<vec4>& added,
+                                  scalar dt)
+{
+    const List<scalar> scale = sphc::laplacianScale(s);
+    const List<vec4> fromWalls = sphc::laplacianAtWalls(s, aheadAtWalls(s, dt), scale);
+    projectionViscosity::laplacian lap;
+    lap.of = [&](const List<vec4>& u, List<vec4>& result) {
+        result = sphc::laplacian(s, u, scale);
+    };
+    lap.diagonal.assign(cloud.n(), 0);
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        for (auto k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
+            lap.diagonal[i] +=
+                2 * cloud.friction(i, s.list.index[k]) * sphc::viscousF(cloud, s.list, k);
+        added[i].s += dt * nu_ * fromWalls[i].s;
+    }
+    viscous_->solve(cloud, lap, added, dt * nu_);
 }
 
 // Residual of the pressure equation when the divergence is round-off: fluid at rest, a flow that is

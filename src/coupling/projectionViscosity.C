@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "projectionViscosity.H"
 
+#include "worstRow.H"
+
 #include "PBiCGStab.H"
 #include "PCG.H"
 
@@ -21,46 +23,43 @@ List<vec4> unpacked(const List<scalar>& x)
 class viscousOperator : public linearOperator
 {
 public:
-    viscousOperator(const stencil& s, const List<scalar>& scale, scalar dtNu)
-        : s_(s), scale_(scale), dtNu_(dtNu)
+    viscousOperator(const particleCloud& cloud, const projectionViscosity::laplacian& lap,
+                    scalar dtNu)
+        : cloud_(cloud), laplacian_(lap), dtNu_(dtNu)
     {
     }
-    label size() const override { return 4 * s_.cloud.n(); }
+    label size() const override { return 4 * cloud_.n(); }
 
     void apply(const List<scalar>& x, List<scalar>& y) const override
     {
-        List<vec4> u = unpacked(x);
-        s_.cloud.fillGhosts(u, true);
-        const List<vec4> lap = sphc::laplacian(s_, u, scale_);
-        parallelFor(s_.cloud.n(), [&](label begin, label end) {
+        u_ = unpacked(x);
+        for (label i = 0; i < cloud_.n(); ++i)
+            if (cloud_.uFixed[i]) u_[i] = vec4{};
+        cloud_.fillGhosts(u_, true);
+        laplacian_.of(u_, lap_);
+        parallelFor(cloud_.n(), [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
                 for (int c = 0; c < 4; ++c)
                     y[4 * i + c] =
-                        x[4 * i + c] - (c < 3 && !s_.cloud.uFixed[i] ? dtNu_ * lap[i][c] : 0);
+                        x[4 * i + c] - (c < 3 && !cloud_.uFixed[i] ? dtNu_ * lap_[i][c] : 0);
         });
     }
 
 private:
-    const stencil& s_;
-    const List<scalar>& scale_;
+    const particleCloud& cloud_;
+    const projectionViscosity::laplacian& laplacian_;
     scalar dtNu_;
+    mutable List<vec4> u_, lap_;
 };
 
 class viscousDiagonal : public preconditioner
 {
 public:
-    viscousDiagonal(const stencil& s, scalar dtNu) : inverse_(s.cloud.n())
+    viscousDiagonal(const particleCloud& cloud, const List<scalar>& diagonal, scalar dtNu)
+        : inverse_(cloud.n())
     {
-        parallelFor(s.cloud.n(), [&](label begin, label end) {
-            for (label i = begin; i < end; ++i)
-            {
-                scalar sum = 0;
-                for (auto k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
-                    sum +=
-                        s.cloud.friction(i, s.list.index[k]) * sphc::viscousF(s.cloud, s.list, k);
-                inverse_[i] = s.cloud.uFixed[i] ? 1 : 1 / (1 - 2 * dtNu * sum);
-            }
-        });
+        for (label i = 0; i < cloud.n(); ++i)
+            inverse_[i] = cloud.uFixed[i] ? 1 : 1 / (1 - dtNu * diagonal[i]);
     }
     void apply(const List<scalar>& r, List<scalar>& z) const override
     {
@@ -84,8 +83,8 @@ projectionViscosity::projectionViscosity(const dictionary& solverU)
     else solver_ = std::make_unique<PBiCGStab>(controls, "U");
 }
 
-void projectionViscosity::solve(particleCloud& cloud, const stencil& s, const List<vec4>& dtA,
-                                const List<vec4>& atWalls, scalar dtNu)
+void projectionViscosity::solve(particleCloud& cloud, const laplacian& lap, const List<vec4>& added,
+                                scalar dtNu)
 {
     const label n = cloud.n();
     // what walls and images bring by their offsets, and what prescribed velocities bring
@@ -93,9 +92,8 @@ void projectionViscosity::solve(particleCloud& cloud, const stencil& s, const Li
     for (label i = 0; i < n; ++i)
         if (cloud.uFixed[i]) given[i] = vec4::from(cloud.Up[i].xyz());
     cloud.fillGhosts(given, false);
-    const List<scalar> scale = sphc::laplacianScale(s);
-    const List<vec4> fromGiven = sphc::laplacian(s, given, scale),
-                     fromWalls = sphc::laplacianAtWalls(s, atWalls, scale);
+    List<vec4> fromGiven;
+    lap.of(given, fromGiven);
 
     List<scalar> b(4 * n, 0), x(4 * n, 0);
     for (label i = 0; i < n; ++i)
@@ -104,16 +102,19 @@ void projectionViscosity::solve(particleCloud& cloud, const stencil& s, const Li
         for (int c = 0; c < 3; ++c)
         {
             x[4 * i + c] = cloud.Up[i][c];
-            b[4 * i + c] = cloud.Up[i][c] + dtA[i][c] + dtNu * (fromGiven[i][c] + fromWalls[i][c]);
+            b[4 * i + c] = cloud.Up[i][c] + added[i][c] + dtNu * fromGiven[i][c];
         }
     }
+    const viscousOperator rows(cloud, lap, dtNu);
     const solverPerformance result =
-        solver_->solve(viscousOperator(s, scale, dtNu), viscousDiagonal(s, dtNu), b, x);
+        solver_->solve(rows, viscousDiagonal(cloud, lap.diagonal, dtNu), b, x);
     result.print();
     if (!result.converged && !(result.finalResidual < 1e-3))
-        throw fatalError("The viscous predictor did not converge: " + result.line() +
-                         "; take solver PBiCGStab in solvers.U of system/sphSolution, or a smaller "
-                         "deltaT");
+        throw fatalError(
+            "The viscous predictor did not converge, worst at " +
+            cloud.describe(worstRow(rows, b, x) / 4) + ": " + result.line() +
+            ". Take solver PBiCGStab in solvers.U of system/sphSolution, or a smaller deltaT, and "
+            "see whether a load or a motion jumps; the last written time is intact");
     for (label i = 0; i < n; ++i)
         if (!cloud.uFixed[i]) cloud.Up[i].setXyz({x[4 * i], x[4 * i + 1], x[4 * i + 2]});
 }

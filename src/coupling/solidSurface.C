@@ -19,7 +19,7 @@ constexpr const char* wayField[2] = {"surfaceWayA", "surfaceWayB"};     // {e0, 
 // Fluid zone of a neighbour, -1 for a rigid one
 int fluidZone(const particleCloud& cloud, label j)
 {
-    if (cloud.phase[j] == phaseType::rigid) return -1;
+    if (cloud.phase[j] == phaseType::rigid || cloud.phase[j] == phaseType::mirror) return -1;
     return cloud.zone[j < cloud.n() ? j : cloud.ghostSource(j)];
 }
 
@@ -217,9 +217,12 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
     {
         const vec4& S0 = cloud.vectors.at(areaField[s])[i];
         sided& part = part_[s][i];
-        part = {int(S0[3]) - 1, vector::Zero(), cloud.vectors.at(wayField[s])[i].xyz()};
+        part = sided();
+        part.side = int(S0[3]) - 1, part.e0 = cloud.vectors.at(wayField[s])[i].xyz();
         if (part.side < 0) continue;
         part.S = areaVector(s, i, cofactor);
+        // F = J (cof F)^-T, and det cof F = J^2
+        part.e = std::sqrt(cofactor[i].determinant()) * cofactor[i].inverse().transpose() * part.e0;
         scalar sum = 0;
         const label m = label(start_[i + 1] - start_[i]);
         scalar* w = weight_[s].data() + start_[i];
@@ -259,6 +262,51 @@ void solidSurface::loads(const List<vec4>& up, List<vec4>& Q, List<tensor>& P) c
             }
         },
         256);
+}
+
+// visit(solid particle, its side, neighbour, weight)
+template <class Visit>
+void solidSurface::forShares(const Visit& visit) const
+{
+    for (label i = 0; i < cloud_->nSolid(); ++i)
+        for (const int s : {0, 1})
+        {
+            if (part_[s][i].side < 0) continue;
+            const scalar* w = weight_[s].data() + start_[i];
+            for (std::int64_t k = list_->mid[i]; k < list_->start[i + 1]; ++k, ++w)
+                if (*w != 0) visit(i, part_[s][i], list_->index[k], *w);
+        }
+}
+
+void solidSurface::shares(List<vec4>& b, List<tensor>& moment) const
+{
+    const particleCloud& cloud = *cloud_;
+    const scalar perVolume = 1 / cloud.volume();
+    b.assign(cloud.n(), vec4{}), moment.assign(cloud.n(), tensor::Zero());
+    forShares([&](label k, const sided& part, label j, scalar w) {
+        vector S = part.S, way = cloud.x[k].xyz() + part.e - cloud.x[j].xyz();
+        if (j >= cloud.n())
+        {
+            const tensor back = cloud.ruleOf(j).R.transpose();
+            S = back * S, way = back * way;
+        }
+        const label i = cloud.ownerOf(j);
+        b[i].s -= 0.5 * w * perVolume * vec4::from(S).s;
+        moment[i] -= w * perVolume * S * way.transpose();
+    });
+}
+
+void solidSurface::addFlux(const List<vec4>& u, const List<tensor>& dF, List<scalar>& div) const
+{
+    const scalar perVolume = 1 / cloud_->volume();
+    label last = -1;
+    int side = -1;
+    scalar gives = 0;
+    forShares([&](label k, const sided& part, label j, scalar w) {
+        if (k != last || part.side != side)
+            gives = perVolume * part.S.dot(u[k].xyz() + dF[k] * part.e0), last = k, side = part.side;
+        div[cloud_->ownerOf(j)] -= w * gives;
+    });
 }
 
 }  // namespace ispf

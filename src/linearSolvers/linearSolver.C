@@ -97,13 +97,14 @@ public:
         cpuLaps cpu(profiling_);
         const preconditioner& M = prepare(system);
         const scalar setup = cpu.lap();
-        solverPerformance done = iterate(system.A, M, b, x);
+        solverPerformance done =
+            iterate(system.whole ? *system.whole : static_cast<const linearOperator&>(system.A), M, b, x);
         done.setupCpu = setup, done.solveCpu = cpu.lap();
         return done;
     }
 
 private:
-    solverPerformance iterate(const csrMatrix& A, const preconditioner& M, const List<scalar>& b,
+    solverPerformance iterate(const linearOperator& A, const preconditioner& M, const List<scalar>& b,
                               List<scalar>& x)
     {
         if (floating_.empty()) return krylov_->solve(A, M, b, x);
@@ -188,6 +189,7 @@ public:
         if (system.symmetric) cholesky_.factorise(system.A);
         else lu_.factorise(system.A);
         const scalar setup = cpu.lap();
+        if (system.whole) return refined(system, floating, right, x);
         if (system.symmetric) cholesky_.apply(right, x);
         else lu_.apply(right, x);
         residual(system.A, right, x, r);
@@ -198,6 +200,19 @@ public:
     }
 
 private:
+    // The factor of A as preconditioner of what is no matrix
+    solverPerformance refined(const linearSystem& system, const constantNullSpace& floating,
+                              const List<scalar>& right, List<scalar>& x)
+    {
+        solverControls controls;
+        controls.tolerance = 1e-12, controls.maxIter = 200, controls.absTol = system.floor;
+        floating.project(x);
+        PCG solver(controls, fieldName_);
+        const solverPerformance done = solver.solve(*system.whole, cholesky_, right, x);
+        floating.project(x);
+        return done;
+    }
+
     word fieldName_;
     bool profiling_;
     choleskySolver cholesky_;

@@ -22,11 +22,11 @@ void volumeConstraint::setup(const List<tensor>& F)
         256);
 }
 
-void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ) const
+void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ, List<tensor>& dF) const
 {
-    gradient_.applyLinear(u, work_);
-    dJ.resize(work_.size());
-    for (size_t i = 0; i < work_.size(); ++i) dJ[i] = cofactor_[i].cwiseProduct(work_[i]).sum();
+    gradient_.applyLinear(u, dF);
+    dJ.resize(dF.size());
+    for (size_t i = 0; i < dF.size(); ++i) dJ[i] = cofactor_[i].cwiseProduct(dF[i]).sum();
 }
 
 // F is linear and its cofactor at most quadratic in time, for which Simpson's rule is exact

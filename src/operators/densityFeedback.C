@@ -103,7 +103,7 @@ densityFeedback::densityFeedback(const dictionary& solution, const smoothingKern
                                  const particleCloud& cloud)
     : kernel_(kernel),
       cloud_(cloud),
-      constant_(solution.getInRangeOrDefault("densityFeedback", 0, 1, 1)),
+      constant_(solution.getInRangeOrDefault("densityFeedback", 0, 1, cloud.wallsApart ? 0 : 1)),
       latticeSum_(kernel.latticeSum(cloud.dx)),
       k_(disorderExcess(kernel, cloud.nDims, cloud.dx))
 {

@@ -70,10 +70,10 @@ struct linkRows
 
 void appendLinks(const particleCloud& cloud, const neighbourList& list, label i, List<link>& links)
 {
-    for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
+    for (std::int64_t k = list.own[i]; k < list.wall[i]; ++k)
     {
         const label j = list.index[k];
-        if (j < cloud.n() || cloud.phase[j] == phaseType::rigid) continue;
+        if (j < cloud.n()) continue;
         const scalar w = -2 * list.F[k];
         if (!negligible(w, cloud.dx))
             links.push_back({i,

@@ -54,4 +54,36 @@ void kernelCorrection::build(const particleCloud& cloud, const neighbourList& li
     for (label i = 0; i < n; ++i) nPoorAll += poorAll[i], nPoorSame += poorSame[i];
 }
 
+tensor kernelCorrection::of(const particleCloud& cloud, const neighbourList& list, label i,
+                            std::int64_t from, std::int64_t to, scalar leastEigenvalue)
+{
+    tensor m = vector(0, 0, cloud.nDims == 2 ? 1 : 0).asDiagonal();
+    char poor = 0;
+    moment(cloud, list, i, from, to, m);
+    return boundedInverse(m, leastEigenvalue, poor);
+}
+
+List<tensor> kernelCorrection::from(const particleCloud& cloud, const neighbourList& list,
+                                    const List<std::int64_t>& end, scalar leastEigenvalue)
+{
+    List<tensor> B(cloud.n());
+    parallelFor(cloud.n(), [&](label from, label to) {
+        for (label i = from; i < to; ++i)
+            B[i] = of(cloud, list, i, list.start[i], end[i], leastEigenvalue);
+    });
+    return B;
+}
+
+medium medium::fluid(const particleCloud& cloud, const neighbourList& list,
+                     const kernelCorrection& B)
+{
+    return {cloud.nSolid(), &list.mid, B.same};
+}
+
+medium medium::all(const particleCloud& cloud, const neighbourList& list, const kernelCorrection& B)
+{
+    if (cloud.nSolid() == 0) return fluid(cloud, list, B);
+    return {0, &list.wall, kernelCorrection::from(cloud, list, list.wall)};
+}
+
 }  // namespace ispf

@@ -32,7 +32,8 @@ public:
     {
         const label n = s_.cloud.n(), nBlocks = (n + blockRows - 1) / blockRows;
         eq_.A.diagonal.resize(n), eq_.boundary_.resize(n);
-        eq_.fixed_.assign(s_.cloud.pFixed.begin(), s_.cloud.pFixed.end());
+        eq_.fixed_.resize(n);
+        for (label i = 0; i < n; ++i) eq_.fixed_[i] = s_.cloud.pHeld(i);
         List<block> part(nBlocks);
         parallelFor(
             nBlocks,
@@ -52,7 +53,7 @@ private:
     {
         const size_t first = out.column.size();
         scalar diagonal = images_.diagonal[i], boundary = images_.source[i];
-        for (std::int64_t k = s_.list.start[i]; k < s_.list.start[i + 1]; ++k)
+        for (std::int64_t k = s_.list.own[i]; k < s_.list.wall[i]; ++k)
         {
             const label j = s_.list.index[k];
             const scalar w = -2 * s_.list.F[k];
@@ -67,13 +68,13 @@ private:
         if (eq_.fixed_[i]) out.column.resize(first), out.value.resize(first);
         // a particle without neighbours keeps a regular row
         eq_.A.diagonal[i] = diagonal > 0 ? diagonal : 1 / (s_.cloud.dx * s_.cloud.dx);
-        eq_.boundary_[i] = eq_.fixed_[i] ? eq_.A.diagonal[i] * s_.cloud.pGiven[i] : boundary;
+        eq_.boundary_[i] = eq_.fixed_[i] ? eq_.A.diagonal[i] * s_.cloud.heldPressure(i) : boundary;
         out.length.push_back(label(out.column.size() - first));
     }
 
     void add(block& out, label j, scalar value, scalar& boundary) const
     {
-        if (eq_.fixed_[j]) boundary -= value * s_.cloud.pGiven[j];
+        if (eq_.fixed_[j]) boundary -= value * s_.cloud.heldPressure(j);
         else out.column.push_back(j), out.value.push_back(value);
     }
 

@@ -63,7 +63,7 @@ struct view
     std::int64_t ownImage(label i) const
     {
         std::int64_t found = -1;
-        for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
+        for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
         {
             const label j = list.index[k];
             if (j < cloud.n() || cloud.ghostSource(j) != i || !cloud.sticks(j)) continue;

@@ -82,18 +82,20 @@ struct rowBuilder
     const neighbourList::visibility& visible;
     scalar reach;
 
-    List<label> hit, same, other;
-    List<scalar> sameR2, otherR2, F;
+    List<label> hit;
+    List<label> found[4];  // cut off, same phase, other phase, walls
+    List<scalar> r2[4], F;
+    const List<char>& given;  // is it fluid whose velocity is given?
 
     rowBuilder(const particleCloud& c, const smoothingKernel& k, const searchGrid& g,
-               const neighbourList::visibility& v)
-        : cloud(c), kernel(k), grid(g), visible(v), reach(k.support())
+               const neighbourList::visibility& v, const List<char>& isGiven)
+        : cloud(c), kernel(k), grid(g), visible(v), reach(k.support()), given(isGiven)
     {
     }
 
     void row(label i)
     {
-        same.clear(), other.clear(), sameR2.clear(), otherR2.clear();
+        for (int g = 0; g < 4; ++g) found[g].clear(), r2[g].clear();
         const vec4& xi = cloud.x[i];
         const float q[3] = {float(xi[0] - grid.low[0]), float(xi[1] - grid.low[1]),
                             float(xi[2] - grid.low[2])};
@@ -116,32 +118,37 @@ struct rowBuilder
     {
         if (j == i) return;
         const simd4 d = cloud.x[i].s - cloud.x[j].s;
-        const scalar r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-        if (r2 >= reach * reach || (visible && !visible(i, j))) return;
-        if (r2 == 0)
+        const scalar square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        if (square >= reach * reach || (visible && !visible(i, j))) return;
+        if (square == 0)
             throw fatalError("Particle " + std::to_string(cloud.id[i]) + " and " +
                              (j < cloud.n() ? "particle " + std::to_string(cloud.id[j])
                                             : word("a boundary particle")) +
                              " coincide at (" + str(cloud.x[i][0]) + " " + str(cloud.x[i][1]) +
                              " " + str(cloud.x[i][2]) + ")");
-        const bool samePhase = cloud.phase[j] == cloud.phase[i];
-        (samePhase ? same : other).push_back(j);
-        (samePhase ? sameR2 : otherR2).push_back(r2);
+        const phaseType p = cloud.phase[j];
+        const bool isWall = p == phaseType::rigid || p == phaseType::mirror;
+        const int g = p != cloud.phase[i] ? (isWall ? 3 : 2) : given[i] || given[j] ? 0 : 1;
+        found[g].push_back(j), r2[g].push_back(square);
     }
 
     void append(neighbourList& part)
     {
-        const auto add = [&](const List<label>& j, const List<scalar>& r2) {
+        const auto add = [&](const List<label>& j, const List<scalar>& square) {
             F.resize(j.size());
-            kernel.F(r2.data(), F.data(), label(j.size()));
+            kernel.F(square.data(), F.data(), label(j.size()));
             for (size_t k = 0; k < j.size(); ++k)
                 F[k] *= cloud.volume() * (j[k] < cloud.n() ? 1 : cloud.ghostVolume(j[k]));
             part.index.insert(part.index.end(), j.begin(), j.end());
             part.F.insert(part.F.end(), F.begin(), F.end());
         };
-        add(same, sameR2);
+        add(found[0], r2[0]);
+        part.own.push_back(part.nPairs());
+        add(found[1], r2[1]);
         part.mid.push_back(part.nPairs());
-        add(other, otherR2);
+        add(found[2], r2[2]);
+        part.wall.push_back(part.nPairs());
+        add(found[3], r2[3]);
         part.start.push_back(part.nPairs());
     }
 };
@@ -152,10 +159,15 @@ void neighbourList::build(const particleCloud& cloud, const smoothingKernel& ker
                           const visibility& visible)
 {
     const label n = cloud.n();
-    start.assign(n + 1, 0), mid.assign(n, 0), index.clear(), F.clear();
+    start.assign(n + 1, 0), own.assign(n, 0), mid.assign(n, 0), wall.assign(n, 0), index.clear(),
+        F.clear();
     if (n == 0) return;
     searchGrid grid;
     grid.build(cloud.x, kernel.support());
+    List<char> given(cloud.nAll(), 0);
+    for (label j = 0; j < cloud.nAll(); ++j)
+        if (const label owner = cloud.ownerOf(j); owner >= 0 && cloud.wallsApart)
+            given[j] = cloud.velocityGiven(owner);
 
     constexpr label blockRows = 512;
     const label nBlocks = (n + blockRows - 1) / blockRows;
@@ -163,7 +175,7 @@ void neighbourList::build(const particleCloud& cloud, const smoothingKernel& ker
     parallelFor(
         nBlocks,
         [&](label begin, label end) {
-            rowBuilder rows(cloud, kernel, grid, visible);
+            rowBuilder rows(cloud, kernel, grid, visible, given);
             for (label b = begin; b < end; ++b)
                 for (label i = b * blockRows; i < std::min(n, (b + 1) * blockRows); ++i)
                 {
@@ -186,7 +198,9 @@ void neighbourList::build(const particleCloud& cloud, const smoothingKernel& ker
                 std::copy(p.F.begin(), p.F.end(), F.begin() + offset[b]);
                 for (size_t r = 0; r < p.mid.size(); ++r)
                 {
+                    own[b * blockRows + r] = offset[b] + p.own[r];
                     mid[b * blockRows + r] = offset[b] + p.mid[r];
+                    wall[b * blockRows + r] = offset[b] + p.wall[r];
                     start[b * blockRows + r + 1] = offset[b] + p.start[r];
                 }
             }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "particleCloud.H"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -95,7 +97,7 @@ void particleCloud::clearGhosts()
     source_.clear(), rule_.clear(), offset_.clear(), through_.clear(), depth_.clear();
     wallScale_.clear(), ownImage_.clear();
     volume_.clear(), stretched_ = false;
-    rules_.clear();
+    rules_.clear(), surface.clear();
 }
 
 label particleCloud::addRule(const Eigen::Matrix4d& M, const tensor& R)
@@ -117,6 +119,7 @@ void particleCloud::addMirror(const imageSource& source, const vector& position,
 {
     addImage(source.particle, source.rule, position, b);
     through_.back() = through, volume_.back() = source.volume;
+    if (wallsApart && phase.back() == phaseType::fluid) phase.back() = phaseType::mirror;
     stretched_ = stretched_ || source.volume != 1;
 }
 
@@ -135,6 +138,25 @@ void particleCloud::addRigid(const vector& position, const vector& velocity, con
     through_.back() = gained;
     const scalar depth = (foot - position).norm();
     if (depth > 0) depth_.back() = vec4::from((foot - position) / depth, depth);
+}
+
+tensor particleCloud::freeDirections() const
+{
+    tensor turned = tensor::Zero();
+    label last = -1;
+    for (label g = n_; g < nAll(); ++g)
+    {
+        if (ghostSource(g) < 0 || phase[g] == phaseType::mirror || ruleIndex(g) == last) continue;
+        last = ruleIndex(g);
+        const tensor d = ruleOf(g).R - tensor::Identity();
+        turned += d.transpose() * d;
+    }
+    const Eigen::SelfAdjointEigenSolver<tensor> e(turned);
+    tensor free = tensor::Zero();
+    for (int k = 0; k < 3; ++k)
+        if (e.eigenvalues()[k] < 1e-12)
+            free += e.eigenvectors().col(k) * e.eigenvectors().col(k).transpose();
+    return free;
 }
 
 bool particleCloud::hasRigid() const

@@ -37,7 +37,7 @@ const home homes[] = {
     {"functionObjects", "", "functions"},
     {"boundary/", "", "boundary"},
     {"models/", "", "structureProperties"},
-    {"linearSolvers|operators/(density|particleSh)", "", "sphSolution"},
+    {"linearSolvers|operators/(density|particleSh|limitedSh)", "", "sphSolution"},
     {"operators/operatorSchemes", "", "sphSchemes"},
     {"coupling/fsiCase", "schemes", "sphSchemes"},
     {"coupling/shiftingFrame", "", "boundary"},

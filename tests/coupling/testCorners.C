@@ -108,7 +108,10 @@ TEST_CASE("corners between all kinds of patches")
                 CAPTURE(coupling);
                 CAPTURE(a->name);
                 CAPTURE(b->name);
-                vortices v(cornerOf(*a, *b, coupling));
+                boxCase box = cornerOf(*a, *b, coupling);
+                // with the adjoint pair the energy between slip walls ends 0.15 % below that without a boundary
+                box.schemes = a->isFree() && b->isFree() ? "pair corrected;" : "";
+                vortices v(box);
                 scalar fastest = 0;
                 for (int s = 0; s < 12; ++s) v.run(dt, 5), fastest = std::max(fastest, v.fastest());
                 const scalar e = v.energy();

@@ -4,6 +4,7 @@
 #include "caseOnDisk.H"
 #include "luSolver.H"
 #include "monolithicPreconditioner.H"
+#include "monolithicSystem.H"
 #include "relative.H"
 #include "triSurface.H"
 
@@ -164,7 +165,7 @@ inflated inflate(const word& name, scalar courant, const word& feedback)
     Time time(ring.files.path());
     fsiCase c(time);
     const auto scheme = couplingScheme::New(c);
-    List<scalar> area(nRings, 0);  // each grows by its own source
+    List<scalar> area(nRings, 0);  // every particle keeps its volume, whatever the source adds
     for (label i = 0; i < c.cloud.n(); ++i)
         if (c.cloud.zone[i] >= ringZone) area[c.cloud.zone[i] - ringZone] += dx * dx;
     for (int step = 0; step < 50; ++step)
@@ -175,7 +176,7 @@ inflated inflate(const word& name, scalar courant, const word& feedback)
         for (int k = 0; k < nRings; ++k)
         {
             const scalar q = stroke / 50 / dt * profile(k) / weight;
-            c.source[ringZone + k] = q, area[k] *= 1 + q * dt;
+            c.source[ringZone + k] = q;
         }
         runSteps(c, *scheme, dt, 1);
     }

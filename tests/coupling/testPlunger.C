@@ -165,6 +165,7 @@ TEST_CASE("fluid between slip walls moves with its plunger as one, in and out")
     {
         CAPTURE(coupling);
         caseOnDisk files("plug");
+        files.schemes = "pair corrected;";  // the adjoint pair: 3.6 % of the fastest
         writeChannel(files, coupling, toAndFro);
         capturedLog log;
         Time time(files.path());
@@ -269,5 +270,4 @@ TEST_CASE("ten reversals of a plunger between walls")
             CHECK(std::abs(l.volume) < 0.005);
             CHECK(l.gap < 1.3);
         }
-    CHECK(afterTenReversals("monolithic", "particles", "densityFeedback 0;").volume < -0.01);
 }

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "adjointRows.H"
+
+namespace ispf
+{
+
+namespace
+{
+
+// The solid's own gradient of p into gs, for its stabiliser
+void ownGradient(const particleCloud& cloud, const neighbourList& list, const List<tensor>& same,
+                 List<vec4>& gs)
+{
+    parallelFor(cloud.nSolid(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            simd4 g = {};
+            for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
+            {
+                const label j = list.index[k];
+                g += (list.F[k] * (gs[j].s[3] - gs[i].s[3])) * (cloud.x[i].s - cloud.x[j].s);
+            }
+            gs[i].setXyz(same[i] * vector(g[0], g[1], g[2]));
+        }
+    });
+}
+
+ISPF_HOT void solidStabiliserRange(const neighbourList& list, const vec4* x, const scalar* tau,
+                                   label begin, label end, const vec4* gs, scalar* cp)
+{
+    for (label i = begin; i < end; ++i)
+    {
+        const simd4 gi = gs[i].s, xi = x[i].s, three = {1, 1, 1, 0};
+        simd4 sum = {};
+        for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
+        {
+            const label j = list.index[k];
+            const simd4 gj = gs[j].s;
+            const scalar f = list.F[k] * tau[k];
+            // lanes 0-2: -F tau (g_i + g_j) . x_ij; lane 3: 2 F tau (p_i - p_j)
+            const simd4 d = (x[j].s - xi) * three;
+            const simd4 dp = {0, 0, 0, 2 * (gi[3] - gj[3])};
+            sum += f * ((gi + gj) * d + dp);
+        }
+        cp[i] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
+}
+
+}  // namespace
+
+void adjointRows::setup(particleCloud& cloud, const neighbourList& list, const kernelCorrection& B,
+                        const smoothingKernel& kernel, const volumeConstraint* volume,
+                        const solidSurface* surface)
+{
+    cloud_ = &cloud, list_ = &list, B_ = &B, volume_ = volume, surface_ = surface;
+    List<vec4> b;
+    List<tensor> moment;
+    if (surface) surface->shares(b, moment);
+    pair_.setup(cloud, list, kernel, medium::fluid(cloud, list, B), b, moment);
+    viscous_.setup({cloud, list, B});
+}
+
+void adjointRows::setTau(const List<scalar>& tau, scalar fluidTau)
+{
+    fluidTau_ = fluidTau;
+    const label nSolid = cloud_->nSolid();
+    if (nSolid == 0) return;
+    pairTau_.resize(list_->start[nSolid]);
+    parallelFor(nSolid, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            for (std::int64_t k = list_->start[i]; k < list_->mid[i]; ++k)
+            {
+                const scalar a = tau[i], b = tau[cloud_->ownerOf(list_->index[k])];
+                pairTau_[k] = 2 * a * b / (a + b);
+            }
+    });
+}
+
+void adjointRows::gradient(const List<vec4>& phi, List<vec4>& gp) const
+{
+    gp.resize(cloud_->n());
+    pair_.gradient(phi, gp);
+    solidGradient(phi, gp);
+}
+
+// What the constraint's pressure and the fluid's load make of {.., p}
+void adjointRows::solidGradient(const List<vec4>& phi, List<vec4>& gp) const
+{
+    if (!volume_) return;
+    surface_->loads(phi, load_, stress_);
+    volume_->addStress(phi, stress_);
+    volume_->gradient().forces(stress_, force_);
+    const scalar perVolume = 1 / cloud_->volume();
+    for (label i = 0; i < cloud_->nSolid(); ++i)
+        gp[i] = vec4::from(perVolume * (load_[i].xyz() - force_[i].xyz()));
+}
+
+void adjointRows::divergence(const List<vec4>& phi, List<scalar>& div) const
+{
+    div.resize(cloud_->n());
+    pair_.divergence(phi, div);
+    if (!volume_) return;
+    volume_->rate(phi, rate_, dF_);
+    for (label i = 0; i < cloud_->nSolid(); ++i) div[i] = rate_[i];
+    surface_->addFlux(phi, dF_, div);
+}
+
+void adjointRows::solidStabiliser(List<vec4>& gs, List<scalar>& cp) const
+{
+    cp.resize(cloud_->n());
+    if (!volume_) return;
+    ownGradient(*cloud_, *list_, B_->same, gs);
+    cloud_->fillGradientGhosts(gs);
+    parallelFor(cloud_->nSolid(), [&](label begin, label end) {
+        solidStabiliserRange(*list_, cloud_->x.data(), pairTau_.data(), begin, end, gs.data(),
+                             cp.data());
+    });
+}
+
+void adjointRows::continuity(const List<vec4>& phi, List<vec4>& gs, List<scalar>& rows) const
+{
+    const label n = cloud_->n(), nSolid = cloud_->nSolid();
+    m_.resize(n), direct_.resize(n);
+    pair_.remainder(gs, m_, direct_);
+    parallelFor(n, [&](label begin, label end) {
+        const simd4 inSpace = {1, 1, 1, 0};
+        for (label i = begin; i < end; ++i)
+            m_[i].s = i < nSolid ? phi[i].s : (phi[i].s - fluidTau_ * m_[i].s) * inSpace;
+    });
+    cloud_->fillGhosts(m_, true);
+    divergence(m_, rows);
+    parallelFor(n - nSolid, [&](label begin, label end) {
+        for (label i = nSolid + begin; i < nSolid + end; ++i) rows[i] += fluidTau_ * direct_[i];
+    });
+    if (!volume_) return;
+    solidStabiliser(gs, direct_);
+    for (label i = 0; i < nSolid; ++i) rows[i] -= direct_[i];
+}
+
+}  // namespace ispf

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "adjointStep.H"
+
+#include "worstRow.H"
+
+#include <ostream>
+
+namespace ispf
+{
+
+namespace
+{
+
+const char* const defaultPressureSolver =
+    "solver PCG; preconditioner multigrid; tolerance 1e-6; relTol 0; maxIter 200;";
+
+scalar maxSpeed(const particleCloud& cloud)
+{
+    return std::sqrt(maxOf(cloud.nAll(), [&](label begin, label end) {
+        scalar m = 0;
+        for (label i = begin; i < end; ++i) m = std::max(m, cloud.Up[i].xyz().squaredNorm());
+        return m;
+    }));
+}
+
+List<vector> points(const particleCloud& cloud)
+{
+    List<vector> x(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i) x[i] = cloud.x[i].xyz();
+    return x;
+}
+
+}  // namespace
+
+adjointStep::adjointStep(scalar rho, scalar mu, const word& viscosity, const dictionary& solution)
+    : rho_(rho), nu_(mu / rho)
+{
+    const scalar reflection =
+        solution.subOrEmptyDict("projection").getInRangeOrDefault("reflection", 0, 1, 0);
+    leaves_ = reflection / (1 + reflection);
+    const dictionary solvers = solution.subOrEmptyDict("solvers");
+    const dictionary p = solvers.subOrEmptyDict("p");
+    pressureSolver_ = linearSolver::New(
+        "p", p.empty() ? dictionary::fromString(defaultPressureSolver, "default of solvers.p") : p);
+    if (viscosity == "implicit")
+        implicit_ = std::make_unique<projectionViscosity>(solvers.subOrEmptyDict("U"));
+}
+
+void adjointStep::setup(particleCloud& cloud, const stencil& s, const smoothingKernel& kernel)
+{
+    pair_.setup(cloud, s.list, kernel, medium::all(cloud, s.list, s.B));
+    viscous_.setup(s);
+    sphm::laplacian(s, equation_);
+    operator_.setup(cloud, s.list, pair_, equation_);
+}
+
+// dt/rho G p; nothing where the velocity is prescribed
+List<vec4> adjointStep::corrected(const particleCloud& cloud, scalar dt) const
+{
+    List<scalar> p(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i) p[i] = cloud.Up[i][3];
+    List<vec4> change;
+    operator_.gradient(p, change);
+    const simd4 part = {dt / rho_, dt / rho_, dt / rho_, 0};
+    for (label i = 0; i < cloud.n(); ++i) change[i].s *= cloud.uFixed[i] ? simd4{} : part;
+    change.resize(cloud.n());
+    return change;
+}
+
+void adjointStep::predict(particleCloud& cloud, const stencil&, const List<vec4>& a, scalar dt)
+{
+    const simd4 velocity = {dt, dt, dt, 0};
+    if (implicit_)
+    {
+        // the p that a case starts from is a guess
+        List<vec4> change(cloud.n(), vec4{});
+        if (behind(cloud) > 0) change = corrected(cloud, dt);
+        List<vec4> dtA(a);
+        for (label i = 0; i < cloud.n(); ++i) dtA[i].s = velocity * a[i].s - change[i].s;
+        projectionViscosity::laplacian lap;
+        lap.of = [&](const List<vec4>& u, List<vec4>& result) {
+            viscous_.apply(u, result);
+            for (vec4& v : result) v.s *= -2;
+        };
+        lap.diagonal = viscous_.sum();
+        for (scalar& d : lap.diagonal) d *= 2;
+        implicit_->solve(cloud, lap, dtA, dt * nu_);
+        for (label i = 0; i < cloud.n(); ++i) cloud.Up[i].s += change[i].s;
+        return;
+    }
+    cloud.fillGhosts(cloud.Up, false);
+    List<vec4> lap;
+    viscous_.apply(cloud.Up, lap);
+    parallelFor(cloud.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            if (!cloud.uFixed[i]) cloud.Up[i].s += velocity * (a[i].s - 2 * nu_ * lap[i].s);
+    });
+}
+
+// Residual of the pressure equation when the divergence is round-off: fluid at rest, a flow that is
+// free of divergence on a lattice
+scalar adjointStep::floor(const particleCloud& cloud, scalar dt) const
+{
+    return 1e-9 * rho_ / dt * maxSpeed(cloud) / cloud.dx * std::sqrt(scalar(cloud.n()));
+}
+
+List<scalar> adjointStep::divergence(particleCloud& cloud) const
+{
+    cloud.fillGhosts(cloud.Up, false);
+    List<scalar> div(cloud.n(), 0);
+    pair_.divergence(cloud.Up, div);
+    const List<scalar>& walls = pair_.wallFlux();
+    for (label i = 0; i < cloud.n(); ++i) div[i] += walls[i];
+    return div;
+}
+
+void adjointStep::project(particleCloud& cloud, const stencil& s, const List<scalar>& q,
+                          scalar cellSize, scalar dt)
+{
+    const label n = cloud.n();
+    List<scalar> f = divergence(cloud);
+    const bool first = !(behind(cloud) > 0);
+    const List<scalar> loses =
+        leaves_ > 0 || first ? sphc::gradSquaredTrace(s, cloud.Up) : List<scalar>();
+    for (label i = 0; i < n; ++i) f[i] = -rho_ / dt * (f[i] - (q.empty() ? 0 : q[i]));
+    const auto addWay = [&](scalar part) {
+        for (label i = 0; i < n; ++i)
+            if (!cloud.uFixed[i]) f[i] += part * rho_ * loses[i];
+    };
+    if (leaves_ > 0) addWay(leaves_);
+
+    if (first) startPressure(cloud);
+    solvePressure(cloud, f, cellSize, dt);
+    correct(cloud, dt);
+    cloud.history[projected] = {dt};
+    if (!first) return;
+    addWay(1 - leaves_);
+    solvePressure(cloud, f, cellSize, dt);
+}
+
+scalar adjointStep::viscousLoss(particleCloud& cloud, scalar dt) const
+{
+    cloud.fillGhosts(cloud.Up, false);
+    return nu_ * dt * viscous_.dissipation(cloud.Up);
+}
+
+void adjointStep::correct(particleCloud& cloud, scalar dt) const
+{
+    const List<vec4> change = corrected(cloud, dt);
+    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i].s -= change[i].s;
+}
+
+// Mean of what is given, 0 if nothing is
+scalar adjointStep::givenLevel(const particleCloud& cloud) const
+{
+    scalar level = 0;
+    label nGiven = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+        if (cloud.pFixed[i]) level += cloud.pGiven[i], ++nGiven;
+    return nGiven > 0 ? level / nGiven : 0;
+}
+
+// The p that a case starts from is a guess
+void adjointStep::startPressure(particleCloud& cloud) const
+{
+    const scalar level = givenLevel(cloud);
+    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] = level;
+}
+
+// p of M p = f, from the p that it finds.  The level of what is given is left out: a tolerance shall not depend on it
+void adjointStep::solvePressure(particleCloud& cloud, const List<scalar>& f, scalar cellSize,
+                                scalar dt)
+{
+    const scalar level = givenLevel(cloud);
+    List<scalar> b;
+    operator_.rightHandSide(f, level, b);
+    p_.resize(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i) p_[i] = cloud.heldPressure(i) - level;
+    const List<vector> x = points(cloud);
+    const solverPerformance result = pressureSolver_->solve(
+        {equation_.A, true, &x, cellSize, nullptr, floor(cloud, dt), &operator_}, b, p_);
+    result.print();
+    if (!result.converged && !(result.finalResidual < 1e-2))
+        throw fatalError(
+            "The pressure equation did not converge, worst at " +
+            cloud.describe(worstRow(operator_, b, p_)) + ": " + result.line() +
+            ". Raise maxIter in solvers.p of system/sphSolution, or reduce deltaT, and "
+            "see whether a load or a motion jumps; the last written time is intact");
+    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] = p_[i] + level;
+}
+
+void adjointStep::printContinuityErrors(particleCloud& cloud, const stencil&, const List<scalar>& q,
+                                        scalar dt)
+{
+    List<scalar> left = divergence(cloud);
+    for (label i = 0; i < cloud.n(); ++i) left[i] -= q.empty() ? 0 : q[i];
+    ispf::printContinuityErrors(cloud, left, dt);
+}
+
+}  // namespace ispf

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupledSystem.H"
+
+#include <numeric>
+
+namespace ispf
+{
+
+std::unique_ptr<coupledSystem> coupledSystem::New(fsiCase& c)
+{
+    return c.cloud.wallsApart ? newAdjointSystem(c) : newMonolithicSystem(c);
+}
+
+void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solidSurface* surface,
+                          const blockMatrix3* K)
+{
+    const particleCloud& cloud = c_.cloud;
+    dt_ = dt, K_ = K;
+    const List<scalar>& viscous = setupRows(volume, surface);
+    const scalar inertia = c_.rho * cloud.volume() / dt;
+    // clamped particles carry no tangent among themselves: they weigh as the mean free one does
+    scalar meanTangent = 0;
+    label nFree = 0;
+    for (label i = 0; K && i < cloud.nSolid(); ++i)
+        if (!cloud.uFixed[i]) meanTangent += K->diagonal[i].trace() / cloud.nDims, ++nFree;
+    if (nFree > 0) meanTangent /= nFree;
+    diagonal_.resize(cloud.n()), tau_.resize(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        diagonal_[i] = inertia - viscousFactor() * viscous[i];
+        if (K && i < cloud.nSolid())
+            diagonal_[i] +=
+                dt * (cloud.uFixed[i] ? meanTangent : K->diagonal[i].trace() / cloud.nDims);
+        tau_[i] = cloud.volume() / diagonal_[i];
+    }
+    fluidTau_ = std::accumulate(tau_.begin() + cloud.nSolid(), tau_.end(), scalar(0)) /
+                scalar(cloud.n() - cloud.nSolid());
+    setTau(fluidTau_);
+    enclosed_.setup([this](const List<vec4>& phi, List<vec4>& gp) { solidGradient(phi, gp); },
+                    surface);
+}
+
+// Ghosts whose pressure is not that of their source: over a cyclic pair with a drop
+List<std::pair<label, scalar>> coupledSystem::pressureOffsets() const
+{
+    const particleCloud& cloud = c_.cloud;
+    List<std::pair<label, scalar>> offsets;
+    for (label g = cloud.n(); g < cloud.nAll(); ++g)
+        if (const scalar p = cloud.ghostOffset(g)[3]; p != 0) offsets.push_back({g, p});
+    return offsets;
+}
+
+void coupledSystem::momentumSide(const List<vec4>& springForce, const List<vec4>& lap,
+                                 const List<vec4>& drop, List<scalar>& b) const
+{
+    const particleCloud& cloud = c_.cloud;
+    const scalar mass = c_.rho * cloud.volume();
+    b.resize(size());
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        vector m = mass / dt_ * cloud.Up[i].xyz() - viscousFactor() * lap[i].xyz();
+        if (!c_.bodyForce.empty())
+            m += mass * (c_.bodyForce[cloud.zone[i]] - hydrostatic_.acceleration());
+        if (i < label(springForce.size())) m += springForce[i].xyz();
+        if (!drop.empty()) m -= cloud.volume() * drop[i].xyz();
+        if (cloud.nDims == 2) m[2] = 0;
+        for (int a = 0; a < 3; ++a)
+            b[4 * i + a] = cloud.uFixed[i] ? cloud.Up[i][a] : m[a] / diagonal_[i];
+        if (cloud.pHeld(i)) b[4 * i + 3] = cloud.heldPressure(i);
+    }
+}
+
+void coupledSystem::writeRows(const List<vec4>& phi, const List<vec4>& lap, const List<vec4>& gp,
+                              const List<scalar>& continuity, List<scalar>& y) const
+{
+    const particleCloud& cloud = c_.cloud;
+    const scalar inertia = c_.rho * cloud.volume() / dt_, V = cloud.volume();
+    const label nSolid = cloud.nSolid();
+    if (K_)
+    {
+        Ku_.resize(nSolid);
+        K_->apply(phi, Ku_);
+    }
+    y.resize(size());
+    parallelFor(cloud.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            simd4 m = inertia * phi[i].s + viscousFactor() * lap[i].s + V * gp[i].s;
+            if (K_ && i < nSolid) m += dt_ * Ku_[i].s;
+            m /= diagonal_[i];
+            if (cloud.uFixed[i]) m = phi[i].s;
+            if (cloud.nDims == 2) m[2] = phi[i].s[2];  // no equation across the plane
+            for (int a = 0; a < 3; ++a) y[4 * i + a] = m[a];
+            y[4 * i + 3] = cloud.pHeld(i) ? phi[i].s[3] : cloud.dx * continuity[i];
+        }
+    });
+    enclosed_.balance(y);
+}
+
+}  // namespace ispf

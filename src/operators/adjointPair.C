@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "adjointPair.H"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace ispf
+{
+
+namespace
+{
+
+struct view
+{
+    const neighbourList& list;
+    const std::int64_t* end;
+    const vec4* x;
+    const vec4* a;
+};
+
+ISPF_HOT void gradientRange(const view& v, const vec4* phi, label begin, label end, vec4* gp)
+{
+    for (label i = begin; i < end; ++i)
+    {
+        const scalar pi = phi[i].s[3];
+        simd4 sum = {};
+        for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
+            sum += (phi[v.list.index[k]].s[3] - pi) * v.a[k].s;
+        gp[i].s = sum;
+    }
+}
+
+ISPF_INLINE simd4 plainGradient(const view& v, const vec4* phi, label i)
+{
+    const scalar pi = phi[i].s[3];
+    simd4 sum = {};
+    for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
+    {
+        const label j = v.list.index[k];
+        sum += (v.list.F[k] * (phi[j].s[3] - pi)) * (v.x[i].s - v.x[j].s);
+    }
+    return sum;
+}
+
+ISPF_HOT void divergenceRange(const view& v, const vec4* u, label begin, label end, scalar* div)
+{
+    for (label i = begin; i < end; ++i)
+    {
+        const simd4 ui = u[i].s;
+        simd4 sum = {};
+        for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
+            sum += v.a[k].s * (ui + u[v.list.index[k]].s);
+        div[i] = sum[0] + sum[1] + sum[2];
+    }
+}
+
+ISPF_INLINE scalar wallPart(const view& v, const vec4* h, label i)
+{
+    simd4 sum = {};
+    for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
+    {
+        const label j = v.list.index[k];
+        sum += v.list.F[k] * (v.x[i].s - v.x[j].s) * (h[i].s + h[j].s);
+    }
+    return sum[0] + sum[1] + sum[2];
+}
+
+ISPF_HOT void remainderRange(const view& v, const vec4* g, label begin, label end, vec4* m,
+                             scalar* direct)
+{
+    const simd4 inSpace = {1, 1, 1, 0};
+    for (label i = begin; i < end; ++i)
+    {
+        const simd4 gi = g[i].s, xi = v.x[i].s;
+        simd4 moment = {};
+        scalar sum = 0;
+        for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
+        {
+            const label j = v.list.index[k];
+            const simd4 d = (v.x[j].s - xi) * inSpace, s = (gi + g[j].s) * d;
+            const scalar jump = gi[3] - g[j].s[3] + 0.5 * (s[0] + s[1] + s[2]);
+            const scalar weighted = -v.list.F[k] * jump;
+            sum += weighted, moment += weighted * d;
+        }
+        m[i].s = moment, direct[i] = 2 * sum;
+    }
+}
+
+}  // namespace
+
+void adjointPair::setup(particleCloud& cloud, const neighbourList& list,
+                        const smoothingKernel& kernel, medium within, const List<vec4>& solidB,
+                        const List<tensor>& solidMoment)
+{
+    cloud_ = &cloud, list_ = &list, within_ = std::move(within);
+    const label n = cloud.n(), first = within_.first;
+    walls_.build(cloud, list, kernel, first == 0);
+    List<vec4> b = walls_.b;
+    List<tensor> M = walls_.moment;
+    for (label i = first; i < label(solidB.size()); ++i)
+        b[i].s += solidB[i].s, M[i] += solidMoment[i];
+    List<vec4>& psi = cloud.vectors["closure"];
+    psi.resize(n, vec4{});
+    closure_ = faces_.build(cloud, list, within_, b, M, psi);
+
+    free_ = cloud.freeDirections();
+    List<tensor> linear(walls_.linear), one(within_.one);
+    List<vec4> drag(walls_.drag);
+    wallFlux_ = walls_.flux;
+    addCut(linear, one, drag);
+    linearRow_.assign(n, -1), linearB_.clear();
+    for (label i = first; i < n; ++i)
+        if (!linear[i].isZero(0) && !faces_.poor[i])
+        {
+            linearRow_[i] = label(linearB_.size());
+            linearB_.push_back(linear[i] * one[i]);
+        }
+    besideWall_.assign(n, 0);
+    if (!linearB_.empty())
+        parallelFor(n - first, [&](label begin, label end) {
+            for (label i = first + begin; i < first + end; ++i)
+            {
+                bool near = linearRow_[i] >= 0;
+                for (std::int64_t k = list.own[i]; k < (*within_.end)[i] && !near; ++k)
+                    near = linearRow_[cloud.ownerOf(list.index[k])] >= 0;
+                besideWall_[i] = near;
+            }
+        });
+
+    // (3.5) of u = 0
+    if (linearB_.empty()) return;
+    h_.assign(cloud.nAll(), vec4{});
+    for (label i = first; i < n; ++i)
+        if (linearRow_[i] >= 0) h_[i] = vec4::from(-(one[i].transpose() * drag[i].xyz()));
+    cloud.fillGradientGhosts(h_);
+    const view v{list, within_.end->data(), cloud.x.data(), faces_.a.data()};
+    for (label i = first; i < n; ++i)
+        if (besideWall_[i]) wallFlux_[i] += wallPart(v, h_.data(), i);
+}
+
+// Mean over the medium of term(i), along free directions
+template <class Term>
+vec4 adjointPair::common(const Term& term) const
+{
+    const label first = within_.first;
+    if (free_.isZero(0)) return vec4{};
+    vector sum = vector::Zero();
+    for (int d = 0; d < cloud_->nDims; ++d)
+        sum[d] = parallelSum(cloud_->n() - first, [&](label begin, label end) {
+            scalar s = 0;
+            for (label i = first + begin; i < first + end; ++i) s += term(i, d);
+            return s;
+        });
+    return vec4::from(free_ * sum / scalar(cloud_->n() - first));
+}
+
+// Faces to fluid beyond an open face whose velocity is given: elements of a wall that moves so, with p linear to it.
+// Where faces meet whose velocities differ, the rim belongs to one or the other by chance: what they lack together of the
+// volume that is to enter is spread over their area
+void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& drag)
+{
+    const particleCloud& cloud = *cloud_;
+    const auto known = cloud.vectors.find(givenVelocity);
+    if (known == cloud.vectors.end()) return;
+    List<vec4> given(known->second);
+    given.resize(cloud.nAll());
+    cloud.fillGhosts(given, true);
+    List<label> cut;
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (list_->start[i] < list_->own[i] && !cloud.beyondOpen(i)) cut.push_back(i);
+    const auto velocity = [&](label i, label j) -> vector {  // in the middle
+        if (given[i][3] != given[j][3]) return given[j].xyz();
+        return 0.5 * (given[i].xyz() + given[j].xyz());
+    };
+    const auto faceOf = [&](label j) { return size_t(given[j][3]); };
+    List<size_t> group(cloud.entering.size());
+    std::iota(group.begin(), group.end(), 0);
+    for (const label i : cut)
+        for (std::int64_t k = list_->start[i]; k < list_->own[i]; ++k)
+            if (const size_t one = group[faceOf(list_->index[k])],
+                other = group[faceOf(list_->index[list_->start[i]])];
+                one != other)
+                std::replace(group.begin(), group.end(), std::max(one, other),
+                             std::min(one, other));
+    List<scalar> lacks(group.size(), 0), area(group.size(), 0);
+    for (size_t f = 1; f < group.size(); ++f) lacks[group[f]] -= cloud.entering[f];
+    const auto meets = [&](size_t f) {
+        return std::count(group.begin(), group.end(), group[f]) > 1;
+    };
+    for (const label i : cut)
+        for (std::int64_t k = list_->start[i]; k < list_->own[i]; ++k)
+        {
+            const label j = list_->index[k];
+            const vector a = 2 * cloud.volume() * faces_.a[k].xyz();
+            lacks[group[faceOf(j)]] -= a.dot(velocity(i, j)), area[group[faceOf(j)]] += a.norm();
+        }
+    const auto added = [&](size_t f) {  // [m/s]
+        const bool known = meets(f) && std::isfinite(lacks[group[f]]) && area[group[f]] > 0;
+        return known ? lacks[group[f]] / area[group[f]] : 0;
+    };
+    parallelFor(label(cut.size()), [&](label begin, label end) {
+        for (label c = begin; c < end; ++c)
+        {
+            const label i = cut[c];
+            one[i] = kernelCorrection::of(cloud, *list_, i, list_->own[i], (*within_.end)[i]);
+            for (std::int64_t k = list_->start[i]; k < list_->own[i]; ++k)
+            {
+                const label j = list_->index[k];
+                const vector a = faces_.a[k].xyz(), x = cloud.x[j].xyz() - cloud.x[i].xyz();
+                const scalar through = a.dot(velocity(i, j)) + a.norm() * added(faceOf(j));
+                wallFlux_[i] += 2 * through;
+                linear[i] += a * x.transpose(), drag[i].s += through * vec4::from(x).s;
+            }
+        }
+    });
+}
+
+void adjointPair::gradient(const List<vec4>& phi, List<vec4>& gp) const
+{
+    const label first = within_.first;
+    const view v{*list_, within_.end->data(), cloud_->x.data(), faces_.a.data()};
+    const List<vec4>& c = faces_.left;
+    const simd4 all = 2 * common([&](label i, int d) { return c[i][d] * phi[i][3]; }).s;
+    parallelFor(cloud_->n() - first, [&](label begin, label end) {
+        begin += first, end += first;
+        gradientRange(v, phi.data(), begin, end, gp.data());
+        for (label i = begin; i < end; ++i) gp[i].s += all;
+        for (label i = begin; i < end; ++i)
+            if (linearRow_[i] >= 0)
+            {
+                const simd4 s = plainGradient(v, phi.data(), i);
+                gp[i].s += vec4::from(linearB_[linearRow_[i]] * vector(s[0], s[1], s[2])).s;
+            }
+    });
+}
+
+void adjointPair::divergence(const List<vec4>& u, List<scalar>& div) const
+{
+    const label first = within_.first, n = cloud_->n();
+    const view v{*list_, within_.end->data(), cloud_->x.data(), faces_.a.data()};
+    if (!linearB_.empty())
+    {
+        h_.assign(cloud_->nAll(), vec4{});
+        for (label i = first; i < n; ++i)
+            if (const label row = linearRow_[i]; row >= 0)
+                h_[i] = vec4::from(linearB_[row].transpose() * u[i].xyz());
+        cloud_->fillGradientGhosts(h_);
+    }
+    const List<vec4>& c = faces_.left;
+    const simd4 all = 2 * common([&](label i, int d) { return u[i][d]; }).s;
+    parallelFor(n - first, [&](label begin, label end) {
+        begin += first, end += first;
+        divergenceRange(v, u.data(), begin, end, div.data());
+        for (label i = begin; i < end; ++i)
+        {
+            const simd4 open = all * c[i].s;
+            div[i] -= open[0] + open[1] + open[2];
+        }
+        for (label i = begin; i < end; ++i)
+            if (besideWall_[i]) div[i] += wallPart(v, h_.data(), i);
+    });
+}
+
+void adjointPair::remainder(const List<vec4>& g, List<vec4>& m, List<scalar>& direct) const
+{
+    const label first = within_.first;
+    const view v{*list_, within_.end->data(), cloud_->x.data(), faces_.a.data()};
+    parallelFor(cloud_->n() - first, [&](label begin, label end) {
+        begin += first, end += first;
+        remainderRange(v, g.data(), begin, end, m.data(), direct.data());
+    });
+}
+
+}  // namespace ispf

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "faceVectors.H"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+constexpr simd4 inSpace = {1, 1, 1, 0};
+
+// Bound of a correction's eigenvalues: 4 times what a full support needs (doc/constants.md)
+constexpr scalar mostCorrected = 4;
+
+// Bound of lambda_max(sum_j a_ij a_ij^T / w_ij), which is 1 in full order and 2 beside a wall: beyond it faces are shortened
+constexpr scalar mostFace = 6;
+
+struct alignas(32) columns  // of a matrix
+{
+    simd4 c[3];
+
+    static columns of(const tensor& m)
+    {
+        columns r;
+        for (int k = 0; k < 3; ++k) r.c[k] = simd4{m(0, k), m(1, k), m(2, k), 0};
+        return r;
+    }
+    tensor matrix() const
+    {
+        tensor m;
+        for (int k = 0; k < 3; ++k)
+            for (int a = 0; a < 3; ++a) m(a, k) = c[k][a];
+        return m;
+    }
+    ISPF_INLINE simd4 operator*(const simd4& d) const
+    {
+        return c[0] * d[0] + c[1] * d[1] + c[2] * d[2];
+    }
+};
+
+// What the loops over pairs see
+struct view
+{
+    const std::int64_t* start;
+    const std::int64_t* end;
+    const label* index;
+    const scalar* F;
+    const vec4* x;
+    const columns* B;
+    const vec4* psi;
+    const scalar* share;  // by which faces are shortened
+
+    // (2.3) over w_ij, its two parts
+    ISPF_INLINE simd4 way(label i, label j) const { return (x[j].s - x[i].s) * inSpace; }
+    ISPF_INLINE simd4 corrected(label i, label j, const simd4& d) const
+    {
+        return 0.5 * std::min(share[i], share[j]) * (B[i] * d + B[j] * d);
+    }
+    ISPF_INLINE simd4 closing(label i, label j) const { return psi[i].s - psi[j].s; }
+};
+
+// sum_j a_ij (x) (x_j - x_i)
+ISPF_HOT void momentRange(const view& v, label begin, label end, columns* moment)
+{
+    for (label i = begin; i < end; ++i)
+    {
+        simd4 m0 = {}, m1 = {}, m2 = {};
+        for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
+        {
+            const label j = v.index[k];
+            const simd4 d = v.way(i, j), a = -v.F[k] * (v.corrected(i, j, d) + v.closing(i, j));
+            m0 += a * d[0], m1 += a * d[1], m2 += a * d[2];
+        }
+        moment[i] = {{m0, m1, m2}};
+    }
+}
+
+// sum_j a_ij + b_i
+ISPF_HOT void openRange(const view& v, const vec4* b, label begin, label end, vec4* left)
+{
+    for (label i = begin; i < end; ++i)
+    {
+        simd4 sum = b[i].s * inSpace;
+        for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
+        {
+            const label j = v.index[k];
+            sum -= v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j));
+        }
+        left[i].s = sum;
+    }
+}
+
+// sum_j w_ij (f_i - f_j)
+ISPF_HOT void graphRange(const view& v, const vec4* f, label begin, label end, vec4* result)
+{
+    for (label i = begin; i < end; ++i)
+    {
+        simd4 sum = {};
+        for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
+            sum -= v.F[k] * (f[i].s - f[v.index[k]].s);
+        result[i].s = sum * inSpace;
+    }
+}
+
+// sum_j |a_ij|^2 / w_ij of faces without psi
+ISPF_HOT void sizeRange(const view& v, label begin, label end, scalar* size)
+{
+    for (label i = begin; i < end; ++i)
+    {
+        simd4 sum = {};
+        for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
+        {
+            const label j = v.index[k];
+            const simd4 f = v.corrected(i, j, v.way(i, j));
+            sum -= v.F[k] * f * f;
+        }
+        size[i] = sum[0] + sum[1] + sum[2];
+    }
+}
+
+ISPF_HOT void writeRange(const view& v, label begin, label end, vec4* a)
+{
+    for (label i = begin; i < end; ++i)
+        for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
+        {
+            const label j = v.index[k];
+            a[k].s = -v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j));
+        }
+}
+
+scalar squareOf(const vec4& a)
+{
+    const simd4 p = a.s * a.s;
+    return p[0] + p[1] + p[2];
+}
+
+// The parts of a build
+class builder
+{
+public:
+    builder(const particleCloud& cloud, const neighbourList& list, const medium& within)
+        : cloud_(cloud), list_(list), within_(within), B_(cloud.nAll()), psi_(cloud.nAll())
+    {
+        poor_.assign(cloud.n(), 0), closed_.assign(cloud.n(), 0), share_.assign(cloud.nAll(), 1);
+    }
+
+    // A particle with few neighbours keeps a bounded correction; with next to none it is not closed
+    void start(const List<tensor>& M, const List<vec4>& psi)
+    {
+        const label known = label(psi.size());
+        forMedium([&](label i) {
+            const tensor& one = within_.one[i];
+            tensor own = (tensor::Identity() - M[i]) * one;
+            if (one.trace() > mostCorrected)
+                if (const Eigen::SelfAdjointEigenSolver<tensor> e(one);
+                    e.eigenvalues()[2] > mostCorrected)
+                {
+                    poor_[i] = 1;
+                    own = e.eigenvectors() * e.eigenvalues().cwiseMin(mostCorrected).asDiagonal() *
+                          e.eigenvectors().transpose();
+                }
+            B_[i] = columns::of(own);
+            closed_[i] = !cloud_.beyondOpen(i) && !(poor_[i] && alone(i));
+            if (closed_[i] && i < known) psi_[i] = psi[i];
+        });
+        fillB(), fill(psi_);
+    }
+
+    // sum_j w_ij |x_ij|^2 is the number of dimensions in the midst of fluid, a quarter of it in a corner
+    bool alone(label i) const
+    {
+        constexpr scalar least = 0.1;  // doc/constants.md
+        scalar sum = 0;
+        for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
+            sum -= list_.F[k] * (cloud_.x[list_.index[k]].xyz() - cloud_.x[i].xyz()).squaredNorm();
+        return sum < least * cloud_.nDims;
+    }
+
+    void sweep(const List<tensor>& M)
+    {
+        const tensor one = vector(1, 1, cloud_.nDims == 2 ? 0 : 1).asDiagonal();
+        List<columns> moment(cloud_.n());
+        forRanges([&](label i, label end) { momentRange(sight(), i, end, moment.data()); });
+        forMedium([&](label i) {
+            if (poor_[i]) return;
+            const columns change = columns::of((one - moment[i].matrix() - M[i]) * within_.one[i]);
+            for (int a = 0; a < 3; ++a) B_[i].c[a] += change.c[a];
+        });
+        fillB();
+    }
+
+    // psi of (2.4), by conjugate gradients with the diagonal
+    void close(const List<vec4>& b, scalar tolerance, faceVectors::closure& result)
+    {
+        constexpr int most = 200;
+        // a tiny share of the diagonal keeps the level of psi, which has no effect
+        constexpr scalar level = 1e-7;
+        const label n = cloud_.n();
+        List<vec4> r(n), p(n), q(n);
+        List<scalar> diagonal(n, 1);
+        label nClosed = 0;
+        for (label i = within_.first; i < n; ++i) nClosed += closed_[i];
+        result.poor = label(std::count(poor_.begin(), poor_.end(), 1));
+        if (nClosed == 0) return;
+        forRanges([&](label i, label end) { openRange(sight(), b.data(), i, end, r.data()); });
+        forMedium([&](label i) {
+            r[i].s *= closed_[i] ? -inSpace : simd4{};
+            scalar sum = 0;
+            for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k) sum -= list_.F[k];
+            if (sum > 0) diagonal[i] = sum;
+            p[i].s = r[i].s / diagonal[i];
+        });
+        const scalar scale = cloud_.dx * cloud_.dx / nClosed;
+        scalar rr = sumOf([&](label i) { return squareOf(r[i]); });
+        scalar rz = sumOf([&](label i) { return squareOf(r[i]) / diagonal[i]; });
+        for (; result.iterations < most && rr * scale > tolerance * tolerance && rz > 0;
+             ++result.iterations)
+        {
+            fill(p);
+            forRanges([&](label i, label end) { graphRange(sight(), p.data(), i, end, q.data()); });
+            forMedium([&](label i) {
+                q[i].s += level * diagonal[i] * p[i].s;
+                if (!closed_[i]) q[i] = vec4{};
+            });
+            const scalar pq = sumOf([&](label i) {
+                const simd4 s = p[i].s * q[i].s;
+                return s[0] + s[1] + s[2];
+            });
+            if (!(pq > 0)) break;
+            const scalar alpha = rz / pq;
+            forMedium([&](label i) { psi_[i].s += alpha * p[i].s, r[i].s -= alpha * q[i].s; });
+            const scalar next = sumOf([&](label i) { return squareOf(r[i]) / diagonal[i]; });
+            rr = sumOf([&](label i) { return squareOf(r[i]); });
+            forMedium([&](label i) { p[i].s = r[i].s / diagonal[i] + next / rz * p[i].s; });
+            rz = next;
+        }
+        result.defect = std::sqrt(rr * scale);
+        fill(psi_);
+    }
+
+    // Beyond mostFace the corrected part of faces is shortened; psi closes what is left
+    void shorten()
+    {
+        const label n = cloud_.n();
+        List<scalar> share(cloud_.nAll(), 1);
+        forRanges([&](label i, label end) { sizeRange(sight(), i, end, share.data()); });
+        forMedium([&](label i) {
+            const bool maybe = share[i] > mostFace;
+            share[i] = 1;
+            if (!maybe) return;
+            tensor sum = tensor::Zero();
+            const view v = sight();
+            for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
+            {
+                const label j = v.index[k];
+                const simd4 f = v.corrected(i, j, v.way(i, j));
+                const vector a(f[0], f[1], f[2]);
+                sum -= v.F[k] * a * a.transpose();
+            }
+            const Eigen::SelfAdjointEigenSolver<tensor> e(sum, Eigen::EigenvaluesOnly);
+            if (e.eigenvalues()[2] > mostFace) share[i] = std::sqrt(mostFace / e.eigenvalues()[2]);
+        });
+        for (label g = n; g < cloud_.nAll(); ++g)
+            if (cloud_.ghostSource(g) >= 0) share[g] = share[cloud_.ghostSource(g)];
+        share_ = std::move(share);
+    }
+
+    void write(List<vec4>& a, List<vec4>& psi) const
+    {
+        a.resize(list_.index.size());
+        forRanges([&](label i, label end) { writeRange(sight(), i, end, a.data()); });
+        psi.assign(psi_.begin(), psi_.begin() + cloud_.n());
+    }
+
+    const List<char>& poor() const { return poor_; }
+    // Once closed.  Less its mean, which is zero but where fluid is open: a level of p has no gradient
+    List<vec4> left(const List<vec4>& b) const
+    {
+        List<vec4> c(cloud_.n(), vec4{});
+        forRanges([&](label i, label end) { openRange(sight(), b.data(), i, end, c.data()); });
+        simd4 mean = {};
+        label nClosed = 0;
+        for (label i = within_.first; i < cloud_.n(); ++i)
+            if (closed_[i]) mean += c[i].s, ++nClosed;
+        if (nClosed > 0) mean /= scalar(nClosed);
+        forMedium([&](label i) { c[i].s = closed_[i] ? c[i].s - mean : simd4{}; });
+        return c;
+    }
+
+private:
+    view sight() const
+    {
+        return {list_.start.data(), within_.end->data(), list_.index.data(), list_.F.data(),
+                cloud_.x.data(),    B_.data(),           psi_.data(),        share_.data()};
+    }
+
+    template <class Body>
+    void forRanges(Body&& body) const
+    {
+        const label first = within_.first;
+        parallelFor(cloud_.n() - first,
+                    [&](label from, label to) { body(first + from, first + to); });
+    }
+    template <class Body>
+    void forMedium(Body&& body) const
+    {
+        forRanges([&](label i, label end) {
+            for (; i < end; ++i) body(i);
+        });
+    }
+    template <class Term>
+    scalar sumOf(Term&& term) const
+    {
+        const label first = within_.first;
+        return parallelSum(cloud_.n() - first, [&](label from, label to) {
+            scalar sum = 0;
+            for (label i = first + from; i < first + to; ++i) sum += term(i);
+            return sum;
+        });
+    }
+
+    void fill(List<vec4>& f) const { cloud_.fillGradientGhosts(f); }
+    void fillB()
+    {
+        const label n = cloud_.n();
+        parallelFor(cloud_.nGhosts(), [&](label from, label to) {
+            for (label g = n + from; g < n + to; ++g)
+                if (cloud_.ghostSource(g) >= 0)
+                {
+                    const tensor& R = cloud_.ruleOf(g).R;
+                    B_[g] = columns::of(R * B_[cloud_.ghostSource(g)].matrix() * R.transpose());
+                }
+        });
+    }
+
+    const particleCloud& cloud_;
+    const neighbourList& list_;
+    const medium& within_;
+    List<columns> B_;
+    List<vec4> psi_;
+    List<char> poor_, closed_;
+    List<scalar> share_;
+};
+
+}  // namespace
+
+faceVectors::closure faceVectors::build(const particleCloud& cloud, const neighbourList& list,
+                                        const medium& within, const List<vec4>& b,
+                                        const List<tensor>& M, List<vec4>& psi, scalar tolerance)
+{
+    constexpr int sweeps = 2;  // doc/constants.md
+    closure result;
+    builder faces(cloud, list, within);
+    faces.start(M, psi);
+    for (int k = 0; k < sweeps; ++k) faces.sweep(M);
+    faces.shorten();
+    faces.close(b, tolerance, result);
+    faces.write(a, psi);
+    poor = faces.poor(), left = faces.left(b);
+    return result;
+}
+
+}  // namespace ispf

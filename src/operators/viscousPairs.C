@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viscousPairs.H"
+
+namespace ispf
+{
+
+namespace
+{
+
+ISPF_HOT void applyRange(const neighbourList& list, const scalar* K, const vec4* phi, label begin,
+                         label end, vec4* result)
+{
+    for (label i = begin; i < end; ++i)
+    {
+        simd4 sum = {};
+        for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
+            sum += K[k] * (phi[list.index[k]].s - phi[i].s);
+        result[i].s = sum;
+    }
+}
+
+}  // namespace
+
+void viscousPairs::setup(const stencil& s)
+{
+    cloud_ = &s.cloud, list_ = &s.list;
+    List<scalar> c = sphc::laplacianScale(s);
+    // a strip ends: its support is truncated
+    for (label i = 0; i < s.cloud.n(); ++i)
+        if (s.cloud.beyondOpen(i)) c[i] = 1;
+    K_.resize(s.list.index.size()), sum_.resize(s.cloud.n());
+    parallelFor(s.cloud.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            sum_[i] = 0;
+            for (std::int64_t k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
+            {
+                const label j = s.list.index[k];
+                const scalar other = s.cloud.phase[j] == phaseType::rigid ? c[i] : c[j];
+                K_[k] = 0.5 * (c[i] + other) * s.cloud.friction(i, j) *
+                        sphc::viscousF(s.cloud, s.list, k);
+                sum_[i] += K_[k];
+            }
+        }
+    });
+}
+
+void viscousPairs::apply(const List<vec4>& phi, List<vec4>& result) const
+{
+    result.resize(cloud_->n());
+    parallelFor(cloud_->n(), [&](label begin, label end) {
+        applyRange(*list_, K_.data(), phi.data(), begin, end, result.data());
+    });
+}
+
+scalar viscousPairs::dissipation(const List<vec4>& u) const
+{
+    return parallelSum(cloud_->n(), [&](label begin, label end) {
+        scalar sum = 0;
+        for (label i = begin; i < end; ++i)
+            for (std::int64_t k = list_->start[i]; k < list_->start[i + 1]; ++k)
+            {
+                // a rigid neighbour has no row of its own; an image's row is that of its source
+                const label j = list_->index[k];
+                const scalar rows = cloud_->phase[j] == phaseType::rigid ? 2 : 1;
+                sum -= rows * K_[k] * (u[i].xyz() - u[j].xyz()).squaredNorm();
+            }
+        return sum;
+    });
+}
+
+void viscousPairs::neighbours(const List<vec4>& phi, List<vec4>& result) const
+{
+    result.resize(cloud_->n());
+    parallelFor(cloud_->n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+        {
+            simd4 sum = {};
+            for (std::int64_t k = list_->start[i]; k < list_->start[i + 1]; ++k)
+                if (const label j = list_->index[k]; cloud_->phase[j] != phaseType::rigid)
+                    sum += K_[k] * phi[j].s;
+            result[i].s = sum;
+        }
+    });
+}
+
+}  // namespace ispf
