@@ -70,11 +70,13 @@ List<vec4> adjointStep::corrected(const particleCloud& cloud, scalar dt) const
 void adjointStep::predict(particleCloud& cloud, const stencil&, const List<vec4>& a, scalar dt)
 {
     const simd4 velocity = {dt, dt, dt, 0};
+    first_ = !(behind(cloud) > 0);
+    added_ = a, before_.assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
     if (implicit_)
     {
         // the p that a case starts from is a guess
         List<vec4> change(cloud.n(), vec4{});
-        if (behind(cloud) > 0) change = corrected(cloud, dt);
+        if (!first_) change = corrected(cloud, dt);
         List<vec4> dtA(a);
         for (label i = 0; i < cloud.n(); ++i) dtA[i].s = velocity * a[i].s - change[i].s;
         projectionViscosity::laplacian lap;
@@ -85,9 +87,11 @@ void adjointStep::predict(particleCloud& cloud, const stencil&, const List<vec4>
         lap.diagonal = viscous_.sum();
         for (scalar& d : lap.diagonal) d *= 2;
         implicit_->solve(cloud, lap, dtA, dt * nu_);
+        sticks_.assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
         for (label i = 0; i < cloud.n(); ++i) cloud.Up[i].s += change[i].s;
         return;
     }
+    sticks_ = before_;
     cloud.fillGhosts(cloud.Up, false);
     List<vec4> lap;
     viscous_.apply(cloud.Up, lap);
@@ -118,24 +122,95 @@ void adjointStep::project(particleCloud& cloud, const stencil& s, const List<sca
                           scalar cellSize, scalar dt)
 {
     const label n = cloud.n();
-    List<scalar> f = divergence(cloud);
-    const bool first = !(behind(cloud) > 0);
-    const List<scalar> loses =
-        leaves_ > 0 || first ? sphc::gradSquaredTrace(s, cloud.Up) : List<scalar>();
-    for (label i = 0; i < n; ++i) f[i] = -rho_ / dt * (f[i] - (q.empty() ? 0 : q[i]));
-    const auto addWay = [&](scalar part) {
-        for (label i = 0; i < n; ++i)
-            if (!cloud.uFixed[i]) f[i] += part * rho_ * loses[i];
-    };
-    if (leaves_ > 0) addWay(leaves_);
-
-    if (first) startPressure(cloud);
-    solvePressure(cloud, f, cellSize, dt);
+    f_ = divergence(cloud), source_ = q;
+    source_.resize(n, 0);
+    loses_ = leaves_ > 0 || first_ ? sphc::gradSquaredTrace(s, cloud.Up) : List<scalar>();
+    for (label i = 0; i < n; ++i)
+    {
+        if (leaves_ > 0 && !cloud.uFixed[i]) source_[i] += dt * leaves_ * loses_[i];
+        f_[i] = -rho_ / dt * (f_[i] - source_[i]);
+    }
+    if (first_) startPressure(cloud);
+    solvePressure(cloud, f_, cellSize, dt);
     correct(cloud, dt);
     cloud.history[projected] = {dt};
-    if (!first) return;
-    addWay(1 - leaves_);
-    solvePressure(cloud, f, cellSize, dt);
+}
+
+// No way lies before the first step: the p that it leaves has the rest of s as well
+void adjointStep::settle(particleCloud& cloud, scalar cellSize, scalar dt)
+{
+    if (!first_) return;
+    for (label i = 0; i < cloud.n(); ++i)
+        if (!cloud.uFixed[i]) f_[i] += (1 - leaves_) * rho_ * loses_[i];
+    solvePressure(cloud, f_, cellSize, dt);
+}
+
+void adjointStep::book(particleCloud& cloud, scalar dt, energyLedger& energy)
+{
+    List<scalar> p(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i) p[i] = cloud.Up[i][3];
+    List<vec4> gp;
+    operator_.gradient(p, gp);
+    bookMomentum(cloud, gp, dt, energy);
+    bookPressure(cloud, gp, dt, energy);
+}
+
+// (6.10) and (6.12), over the rows that the ledger counts
+void adjointStep::bookMomentum(particleCloud& cloud, const List<vec4>& gp, scalar dt,
+                               energyLedger& energy)
+{
+    List<vec4> lap;
+    sticks_.resize(cloud.nAll());
+    cloud.fillGhosts(sticks_, false);
+    viscous_.apply(sticks_, lap);
+    const viscousPairs::power friction = viscous_.powerOf(sticks_);
+    scalar damped = 0, crossed = 0, forced = 0, left = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        if (!energy.counts(i)) continue;
+        const vector u = cloud.Up[i].xyz(), gained = u - before_[i].xyz();
+        const vector viscous = -2 * dt * nu_ * lap[i].xyz(), a = dt * added_[i].xyz();
+        damped += gained.squaredNorm(), forced += u.dot(a);
+        crossed += (u - sticks_[i].xyz()).dot(viscous);
+        left += u.dot(gained + dt / rho_ * gp[i].xyz() - a - viscous);
+    }
+    const scalar m = rho_ * cloud.volume(), rubs = m * dt * nu_;
+    energy[energyLedger::step] += m * (crossed - 0.5 * damped);
+    energy[energyLedger::forces] += m * forced;
+    energy[energyLedger::solver] += m * left;
+    energy[energyLedger::viscosity] += rubs * friction.dissipated;
+    energy[energyLedger::walls] += rubs * friction.walls;
+    energy[energyLedger::faces] += rubs * friction.faces;
+}
+
+// (6.11) and (6.6): what p does, row by row of continuity
+void adjointStep::bookPressure(particleCloud& cloud, List<vec4>& gp, scalar dt,
+                               energyLedger& energy)
+{
+    List<vec4> m(cloud.nAll());
+    List<scalar> damps(cloud.n()), direct(cloud.n(), 0);
+    pair_.remainder(gp, m, direct);
+    cloud.fillGradientGhosts(m);
+    pair_.divergence(m, damps);
+    const List<scalar> div = divergence(cloud), &all = pair_.wallFlux(), &faces = pair_.faceFlux();
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        const scalar work = dt * cloud.volume() * cloud.Up[i][3];
+        const scalar S = dt / rho_ * (direct[i] - damps[i]), row = div[i] + S;
+        const scalar face = faces.empty() ? 0 : faces[i];
+        energy[energyLedger::stabiliser] -= work * S;
+        energy[energyLedger::walls] -= work * (all[i] - face);
+        energy[energyLedger::faces] -= work * face;
+        if (cloud.pHeld(i)) energy[energyLedger::faces] += work * row;
+        else
+        {
+            energy[energyLedger::sources] += work * source_[i];
+            energy[energyLedger::solver] += work * (row - source_[i]);
+        }
+        if (!energy.counts(i))
+            energy[cloud.isFluid(i) ? energyLedger::faces : energyLedger::walls] +=
+                dt * cloud.volume() * cloud.Up[i].xyz().dot(gp[i].xyz());
+    }
 }
 
 scalar adjointStep::viscousLoss(particleCloud& cloud, scalar dt) const
@@ -181,7 +256,7 @@ void adjointStep::solvePressure(particleCloud& cloud, const List<scalar>& f, sca
         {equation_.A, true, &x, cellSize, nullptr, floor(cloud, dt), &operator_}, b, p_);
     result.print();
     if (!result.converged && !(result.finalResidual < 1e-2))
-        throw fatalError(
+        throw notConverged(
             "The pressure equation did not converge, worst at " +
             cloud.describe(worstRow(operator_, b, p_)) + ": " + result.line() +
             ". Raise maxIter in solvers.p of system/sphSolution, or reduce deltaT, and "

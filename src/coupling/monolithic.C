@@ -38,21 +38,14 @@ const word oldField = "Up_0";
 // What the rate of J has missed in the last step
 const word missedField = "missedJ";
 
-// Share of the kinetic energy that p may give out of nothing in a step: flows that go well have up to 0.002
-constexpr scalar mostFromNothing = 0.05;
 // Below this cell Reynolds number viscosity damps what dx does not resolve
 constexpr scalar resolved = 5;
-
-vector velocityOf(const List<scalar>& z, label i)
-{
-    return {z[4 * i], z[4 * i + 1], z[4 * i + 2]};
-}
 
 class monolithic : public couplingScheme
 {
 public:
     explicit monolithic(fsiCase& c)
-        : c_(c),
+        : couplingScheme(c),
           dict_(c.solution.subOrEmptyDict("monolithic")),
           system_(coupledSystem::New(c)),
           preconditioner_(*system_, dict_),
@@ -62,7 +55,6 @@ public:
           absTolerance_(dict_.getInRangeOrDefault("absTolerance", 0, 0.1, 1e-5)),
           maxIter_(dict_.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
           makesGood_(dict_.getOrDefault("divergenceDefect", true)),
-          endless_(shiftingFrame(c) == "mean"),
           shifting_(c),
           density_(c.solution, *c.kernel, c.cloud)
     {
@@ -75,9 +67,12 @@ public:
     }
 
     stepLimit limit() const override;
-    void step(scalar t, scalar dt) override;
 
 private:
+    word attempt(scalar t, scalar dt) override;
+    void keep() override { preconditioner_.keep(c_.cloud); }
+    word advice() const override;
+
     void structureState();
     List<scalar> guess(scalar dt) const;
     scalar feedback(label i, scalar dt) const;
@@ -88,22 +83,16 @@ private:
     void account(scalar dt);
     word solve(scalar dt, List<scalar>& z);
     void printContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt);
-    vector frameOf(const List<scalar>& z) const;
-    word tooFar(scalar dt, const List<scalar>& z) const;
-    word gains(const List<scalar>& z) const;
-    word advice() const;
-    void advance(scalar t, scalar dt, int depth);
     scalar velocityScale() const;
     scalar cellReynolds(scalar speed) const;
     scalar rounding(scalar dt, const List<scalar>& z) const;
 
-    fsiCase& c_;
     dictionary dict_;
     std::unique_ptr<coupledSystem> system_;
     monolithicPreconditioner preconditioner_;
     scalar theta_, alpha_, tolerance_, absTolerance_;
     label maxIter_;
-    bool makesGood_, endless_;
+    bool makesGood_;
     shiftingOfCase shifting_;
     densityFeedback density_;
 
@@ -111,6 +100,7 @@ private:
     solidSurface surface_;
     List<tensor> F_;
     List<vec4> springForce_;
+    List<scalar> q_;  // sources of the step [1/s]
     blockMatrix3 K_;
 };
 
@@ -225,7 +215,9 @@ void monolithic::account(scalar dt)
 word monolithic::solve(scalar dt, List<scalar>& z)
 {
     const particleCloud& cloud = c_.cloud;
-    List<scalar> q(cloud.n(), 0), b;
+    List<scalar>& q = q_;
+    List<scalar> b;
+    q.assign(cloud.n(), 0);
     for (label i = 0; i < cloud.nSolid(); ++i) q[i] = feedback(i, dt) + missed(i, dt);
     for (label i = cloud.nSolid(); i < cloud.n() && !c_.source.empty(); ++i)
         q[i] = c_.source[cloud.zone[i]];
@@ -254,8 +246,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
                " of " + str(result.initialResidual, 3) + " after " +
                std::to_string(result.nIterations) + " iterations), worst at " +
                cloud.describe(worstRow(*system_, b, z) / 4);
-    const word reason = tooFar(dt, z);
-    return reason.empty() ? gains(z) : reason;
+    return "";
 }
 
 // What the solver leaves of D u - C (p - theta p^n) = q; its rows are scaled by dx
@@ -267,50 +258,6 @@ void monolithic::printContinuityErrors(const List<scalar>& b, const List<scalar>
     ispf::printContinuityErrors(c_.cloud, left, dt);
 }
 
-// Mean velocity where an observer may move along (shiftingFrame.H), or zero
-vector monolithic::frameOf(const List<scalar>& z) const
-{
-    vector sum = vector::Zero();
-    for (label i = 0; endless_ && i < c_.cloud.n(); ++i) sum += velocityOf(z, i);
-    return sum / scalar(c_.cloud.n());
-}
-
-// A particle that is not finite or passes its neighbours in one step
-word monolithic::tooFar(scalar dt, const List<scalar>& z) const
-{
-    const particleCloud& cloud = c_.cloud;
-    const vector frame = frameOf(z);
-    for (label i = 0; i < cloud.n(); ++i)
-    {
-        const scalar u = (velocityOf(z, i) - frame).norm();
-        if (u * dt < 0.6 * cloud.dx && std::isfinite(z[4 * i + 3])) continue;
-        return cloud.describe(i) + " would move " + str(u * dt / cloud.dx, 3) + " dx";
-    }
-    return "";
-}
-
-// p does work in a closed body only on what moves it.  D and G are exact of linear fields, not adjoint: where dx does not
-// resolve the flow p makes it faster, until it breaks down.  At open faces, and walls that move, p does what it is there for
-word monolithic::gains(const List<scalar>& z) const
-{
-    if (c_.walls->hasOpen() || c_.walls->maxGivenSpeed() > 0) return "";
-    const vector frame = frameOf(z);
-    scalar fastest = 0, squares = 0;
-    for (label i = 0; i < c_.cloud.n(); ++i)
-    {
-        const scalar square = (velocityOf(z, i) - frame).squaredNorm();
-        fastest = std::max(fastest, square), squares += square;
-    }
-    fastest = std::sqrt(fastest);
-    // what only drifts is left with rounding
-    if (cellReynolds(fastest) < resolved || fastest < 1e-6 * velocityScale()) return "";
-    const scalar part =
-        system_->workFromNothing(frame) / (0.5 * c_.rho * c_.cloud.volume() * squares);
-    if (!(part > mostFromNothing)) return "";
-    return "in it the pressure gives the flow " + str(100 * part, 3) +
-           " % of its kinetic energy out of nothing";
-}
-
 scalar monolithic::cellReynolds(scalar speed) const
 {
     return c_.rho * speed * c_.cloud.dx / c_.mu;
@@ -319,53 +266,40 @@ scalar monolithic::cellReynolds(scalar speed) const
 word monolithic::advice() const
 {
     const scalar Re = cellReynolds(velocityScale());
-    if (!(Re >= resolved)) return "run checkParticles, and see whether a load or a motion jumps";
-    return "at a cell Reynolds number U dx/nu of " + str(Re, 3) +
+    if (!(Re >= resolved)) return couplingScheme::advice();
+    return "At a cell Reynolds number U dx/nu of " + str(Re, 3) +
            " take a smaller dx, or a smaller deltaT from the start (CFL 0.1), or see whether a "
            "load or a "
            "motion jumps";
 }
 
-void monolithic::step(scalar t, scalar dt)
-{
-    printCourant(c_.cloud, dt);
-    advance(t, dt, 0);
-    if (c_.structure && c_.time.writeTime()) preconditioner_.keep(c_.cloud);
-}
-
-// A step that cannot be accepted is taken again as two halves
-void monolithic::advance(scalar t, scalar dt, int depth)
+word monolithic::attempt(scalar t, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
-    const particleCloud before = cloud;
     c_.updateNeighbours(t, t + dt);
     system_->setStep(t, t + dt);
+    energy_.begin();
     structureState();
     List<scalar> z;
     system_->hydrostatic().take(cloud);
-    const word reason = atTime(t + dt, [&] { return solve(dt, z); });
-    if (!reason.empty())
-    {
-        if (depth == 4)
-            throw fatalError("Time " + str(t) + " s: a step of " + str(dt) +
-                             " s is refused: " + reason + ". Sixteenths of deltaT do not help; " +
-                             advice() + ". The last written time is intact");
-        warning("time " + str(t) + " s: step of " + str(dt) + " s halved: " + reason, 20);
-        cloud = before;
-        advance(t, 0.5 * dt, depth + 1);
-        advance(t + 0.5 * dt, 0.5 * dt, depth + 1);
-        return;
-    }
+    if (const word reason = atTime(t + dt, [&] { return solve(dt, z); }); !reason.empty())
+        return reason;
     accept(z, dt);
+    if (energy_.on()) system_->book(cloud.vectors.at(oldField), theta_, springForce_, q_, energy_);
+    if (const word reason = tooFar(dt); !reason.empty()) return reason;
     account(dt);
     system_->hydrostatic().giveBack(cloud);
 
     c_.followOpen(dt);
     // Shift first, with the neighbours at hand, then move: x^{n+1} = x^n + dt u^{n+1}
-    shifting_.shift(dt, [&] { return system_->viscousLoss(cloud.Up); });
+    energy_.shifts([&] { shifting_.shift(dt, [&] { return system_->viscousLoss(cloud.Up); }); });
     for (label i = 0; i < cloud.n(); ++i)
         cloud.x[i].s += dt * simd4{cloud.Up[i][0], cloud.Up[i][1], cloud.Up[i][2], 0};
+    energy_.end();
+    if (const word reason = gains(); !reason.empty()) return reason;
+    energy_.book();
     c_.walls->exchange(cloud, t + dt);
+    return "";
 }
 
 }  // namespace

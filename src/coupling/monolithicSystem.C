@@ -83,14 +83,6 @@ void monolithicSystem::rightHandSide(scalar theta, const List<vec4>& springForce
     enclosed_.balance(b);
 }
 
-scalar monolithicSystem::workFromNothing(const vector& frame) const
-{
-    scalar sum = 0;
-    for (label i = 0; i < c_.cloud.n(); ++i)
-        sum += (phi_[i].xyz() - frame).dot(gp_[i].xyz()) + phi_[i][3] * gp_[i][3];
-    return -dt_ * c_.cloud.volume() * sum;
-}
-
 void monolithicSystem::apply(const List<scalar>& x, List<scalar>& y) const
 {
     const particleCloud& cloud = c_.cloud;

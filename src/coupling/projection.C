@@ -18,6 +18,7 @@
 #include "projectionLimits.H"
 #include "fractionalStep.H"
 #include "shiftingOfCase.H"
+#include "solverPerformance.H"
 #include "stepReport.H"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ class projection : public couplingScheme
 {
 public:
     explicit projection(fsiCase& c)
-        : c_(c),
+        : couplingScheme(c),
           dict_(c.solution.subOrEmptyDict("projection")),
           explicit_(dict_.chooseOrDefault("viscosity", {"implicit", "explicit"}, "implicit") ==
                     "explicit"),
@@ -55,10 +56,12 @@ public:
     }
 
     stepLimit limit() const override;
-    void step(scalar t, scalar dt) override;
 
 private:
-    List<vec4> accelerations(const vector& slope) const;
+    word attempt(scalar t, scalar dt) override;
+    void keep() override { limits_.keep(c_.cloud); }
+
+    List<vec4> accelerations(const vector& slope, List<vec4>& spring) const;
     List<scalar> sources() const;
     void checkPushed(const List<label>& bodyOf) const;
     vector slopeBehind() const;
@@ -66,7 +69,6 @@ private:
     void solve(const stencil& s, scalar dt);
     void move(const List<vec4>& before, scalar dt);
 
-    fsiCase& c_;
     dictionary dict_;
     bool explicit_, mean_;
     projectionLimits limits_;
@@ -80,20 +82,20 @@ private:
 couplingScheme::stepLimit projection::limit() const
 {
     c_.walls->setStep(c_.time.value(), c_.stepEnd());
-    return limits_.ruling(accelerations(c_.walls->pressureSlope()));
+    List<vec4> spring;
+    return limits_.ruling(accelerations(c_.walls->pressureSlope(), spring));
 }
 
 // Body force of the zone, springs, Eq. (2) of the paper, and the slope of p along cyclic patches
-List<vec4> projection::accelerations(const vector& slope) const
+List<vec4> projection::accelerations(const vector& slope, List<vec4>& spring) const
 {
     const particleCloud& cloud = c_.cloud;
     List<vec4> a(cloud.n());
     if (c_.structure)
     {
         const scalar perMass = 1 / (c_.rho * cloud.volume());
-        List<vec4> f;
-        c_.structure->force(cloud.x, f);
-        for (label i = 0; i < cloud.nSolid(); ++i) a[i].s = perMass * f[i].s;
+        c_.structure->force(cloud.x, spring);
+        for (label i = 0; i < cloud.nSolid(); ++i) a[i].s = perMass * spring[i].s;
     }
     if (!c_.bodyForce.empty())
         for (label i = 0; i < cloud.n(); ++i)
@@ -172,8 +174,15 @@ void projection::solve(const stencil& s, scalar dt)
                        [&](label i) { return c_.isCut(i); });
     hydrostatic_.take(cloud), addSlope(-1, slopeBehind());
     step_->setup(cloud, s, *c_.kernel);
-    step_->predict(cloud, s, accelerations(slope_), dt);
+    List<vec4> spring;
+    step_->predict(cloud, s, accelerations(slope_, spring), dt);
     step_->project(cloud, s, q, c_.kernel->support(), dt);
+    if (energy_.on())
+    {
+        step_->book(cloud, dt, energy_);
+        energy_[energyLedger::forces] -= energy_.bookSprings(spring, dt);
+    }
+    step_->settle(cloud, c_.kernel->support(), dt);
     hydrostatic_.giveBack(cloud), addSlope(1, slope_);
     if (slope_.isZero(0)) cloud.history.erase(slopeOfStep);
     else cloud.history[slopeOfStep] = {slope_[0], slope_[1], slope_[2]};
@@ -181,25 +190,39 @@ void projection::solve(const stencil& s, scalar dt)
     density_.book(cloud, dt);
 }
 
-void projection::step(scalar t, scalar dt)
+word projection::attempt(scalar t, scalar dt)
 {
-    printCourant(c_.cloud, dt);
     c_.updateNeighbours(t, t + dt, fractionalStep::behind(c_.cloud));
     hydrostatic_.setStep(t, t + dt);
     slope_ = c_.walls->pressureSlope();
     particleCloud& cloud = c_.cloud;
+    energy_.begin();
     const stencil s{cloud, c_.list, c_.correction};
     const List<vec4> before = mean_ ? cloud.Up : List<vec4>();
-    atTime(t + dt, [&] { solve(s, dt); });
-    cloud.checkFinite(t + dt);
+    const word fails = atTime(t + dt, [&]() -> word {
+        try
+        {
+            solve(s, dt);
+            return "";
+        }
+        catch (const notConverged& e)
+        {
+            return e.what();
+        }
+    });
+    if (!fails.empty()) return fails;
+    if (const word reason = tooFar(dt); !reason.empty()) return reason;
     c_.followOpen(dt);
 
     // shifted with the neighbours at hand, then moved
-    shifting_.shift(dt, [&] { return step_->viscousLoss(cloud, dt); });
+    energy_.shifts([&] { shifting_.shift(dt, [&] { return step_->viscousLoss(cloud, dt); }); });
     move(before, dt);
+    energy_.end();
+    if (const word reason = gains(); !reason.empty()) return reason;
+    energy_.book();
     c_.walls->keepVelocities(cloud);
     c_.walls->exchange(cloud, t + dt);
-    if (c_.structure && c_.time.writeTime()) limits_.keep(cloud);
+    return "";
 }
 
 }  // namespace

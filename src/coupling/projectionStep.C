@@ -265,7 +265,7 @@ void projectionStep::solvePressure(particleCloud& cloud, const List<scalar>& f, 
         {equation_.A, true, &x, cellSize, nullptr, floor(cloud, dt)}, equation_.source, p_);
     result.print();
     if (!result.converged && !(result.finalResidual < 1e-2))
-        throw fatalError(
+        throw notConverged(
             "The pressure equation did not converge, worst at " +
             cloud.describe(worstRow(equation_.A, equation_.source, p_)) + ": " + result.line() +
             ". Raise maxIter in solvers.p of system/sphSolution, or reduce deltaT, and "

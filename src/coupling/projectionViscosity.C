@@ -110,7 +110,7 @@ void projectionViscosity::solve(particleCloud& cloud, const laplacian& lap, cons
         solver_->solve(rows, viscousDiagonal(cloud, lap.diagonal, dtNu), b, x);
     result.print();
     if (!result.converged && !(result.finalResidual < 1e-3))
-        throw fatalError(
+        throw notConverged(
             "The viscous predictor did not converge, worst at " +
             cloud.describe(worstRow(rows, b, x) / 4) + ": " + result.line() +
             ". Take solver PBiCGStab in solvers.U of system/sphSolution, or a smaller deltaT, and "

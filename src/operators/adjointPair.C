@@ -106,8 +106,8 @@ void adjointPair::setup(particleCloud& cloud, const neighbourList& list,
 
     free_ = cloud.freeDirections();
     List<tensor> linear(walls_.linear), one(within_.one);
-    List<vec4> drag(walls_.drag);
-    wallFlux_ = walls_.flux;
+    List<vec4> drag(n, vec4{});
+    wallFlux_ = walls_.flux, faceFlux_.clear();
     addCut(linear, one, drag);
     linearRow_.assign(n, -1), linearB_.clear();
     for (label i = first; i < n; ++i)
@@ -128,15 +128,23 @@ void adjointPair::setup(particleCloud& cloud, const neighbourList& list,
             }
         });
 
-    // (3.5) of u = 0
-    if (linearB_.empty()) return;
-    h_.assign(cloud.nAll(), vec4{});
+    addDrag(one, walls_.drag, wallFlux_);
+    if (!faceFlux_.empty()) addDrag(one, drag, faceFlux_);
+    for (label i = 0; i < label(faceFlux_.size()); ++i) wallFlux_[i] += faceFlux_[i];
+}
+
+// (3.5) of u = 0
+void adjointPair::addDrag(const List<tensor>& one, const List<vec4>& drag, List<scalar>& flux) const
+{
+    if (linearB_.empty() || drag.empty()) return;
+    const label first = within_.first, n = cloud_->n();
+    h_.assign(cloud_->nAll(), vec4{});
     for (label i = first; i < n; ++i)
         if (linearRow_[i] >= 0) h_[i] = vec4::from(-(one[i].transpose() * drag[i].xyz()));
-    cloud.fillGradientGhosts(h_);
-    const view v{list, within_.end->data(), cloud.x.data(), faces_.a.data()};
+    cloud_->fillGradientGhosts(h_);
+    const view v{*list_, within_.end->data(), cloud_->x.data(), faces_.a.data()};
     for (label i = first; i < n; ++i)
-        if (besideWall_[i]) wallFlux_[i] += wallPart(v, h_.data(), i);
+        if (besideWall_[i]) flux[i] += wallPart(v, h_.data(), i);
 }
 
 // Mean over the medium of term(i), along free directions
@@ -199,6 +207,7 @@ void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& dr
         const bool known = meets(f) && std::isfinite(lacks[group[f]]) && area[group[f]] > 0;
         return known ? lacks[group[f]] / area[group[f]] : 0;
     };
+    faceFlux_.assign(cloud.n(), 0);
     parallelFor(label(cut.size()), [&](label begin, label end) {
         for (label c = begin; c < end; ++c)
         {
@@ -209,7 +218,7 @@ void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& dr
                 const label j = list_->index[k];
                 const vector a = faces_.a[k].xyz(), x = cloud.x[j].xyz() - cloud.x[i].xyz();
                 const scalar through = a.dot(velocity(i, j)) + a.norm() * added(faceOf(j));
-                wallFlux_[i] += 2 * through;
+                faceFlux_[i] += 2 * through;
                 linear[i] += a * x.transpose(), drag[i].s += through * vec4::from(x).s;
             }
         }

@@ -69,6 +69,45 @@ scalar viscousPairs::dissipation(const List<vec4>& u) const
     });
 }
 
+// 2 K u_i.(u_i - u_j) is K |u_i - u_j|^2, the half of the pair, and K (u_i + u_j).(u_i - u_j), which the row of j or of its
+// image has with the other sign.  A wall has no row, and its image's has that of the wall's own motion
+viscousPairs::power viscousPairs::powerOf(const List<vec4>& u) const
+{
+    const particleCloud& cloud = *cloud_;
+    const auto row = [&](label i, power& sum) {
+        const simd4 ui = u[i].s;
+        const auto dot = [](const simd4& a, const simd4& b) {
+            const simd4 ab = a * b;
+            return ab[0] + ab[1] + ab[2];
+        };
+        for (std::int64_t k = list_->start[i]; k < list_->start[i + 1]; ++k)
+        {
+            const label j = list_->index[k], owner = cloud.ownerOf(j);
+            const simd4 uj = u[j].s, e = K_[k] * (ui - uj);
+            const scalar all = 2 * dot(e, ui), half = dot(e, ui - uj);
+            const bool clamped = owner >= 0 && cloud.uFixed[owner] && !cloud.isFluid(owner);
+            if (owner >= 0 && cloud.beyondOpen(owner))
+                sum.dissipated += half, sum.faces += all - half;
+            else if (owner < 0 || clamped) sum.dissipated += 2 * half, sum.walls += all - 2 * half;
+            else if (cloud.phase[j] == phaseType::mirror)
+            {
+                const scalar wall = dot(e, cloud.ghostOffset(j).s);
+                sum.dissipated += all - wall, sum.walls += wall;
+            }
+            else sum.dissipated += half;
+        }
+    };
+    const auto part = [&](scalar power::*which) {
+        return parallelSum(cloud.n(), [&](label begin, label end) {
+            power sum;
+            for (label i = begin; i < end; ++i)
+                if (!cloud.uFixed[i] && !cloud.pFixed[i]) row(i, sum);
+            return sum.*which;
+        });
+    };
+    return {part(&power::dissipated), part(&power::walls), part(&power::faces)};
+}
+
 void viscousPairs::neighbours(const List<vec4>& phi, List<vec4>& result) const
 {
     result.resize(cloud_->n());

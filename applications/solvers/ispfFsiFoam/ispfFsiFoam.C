@@ -80,6 +80,7 @@ int run(const argList& args)
         coupling->step(t0, time.deltaT());
         ledger.update(time.deltaT());
         ledger.writeLine();
+        coupling->writeEnergy();
         c.walls->printBalance(c.cloud);
         functions.execute();
         if (time.writeTime()) c.write();

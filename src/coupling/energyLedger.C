@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "energyLedger.H"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <ostream>
+
+namespace ispf
+{
+
+namespace
+{
+
+// Entry of cloud.history: the energies of the last step's end, the sums of the terms, and what is left over
+const word entry = "energyLedger";
+
+}  // namespace
+
+const std::array<word, energyLedger::nStores + energyLedger::nTerms + 1> energyLedger::titles = {
+    "kinetic",   "elastic", "potential",  "walls",    "faces",  "forces",  "sources",
+    "viscosity", "step",    "stabiliser", "shifting", "solver", "leftOver"};
+
+energyLedger::energyLedger(fsiCase& c) : c_(c), on_(c.cloud.wallsApart)
+{
+    if (!on_) return;
+    List<scalar>& sums = c.cloud.history[entry];
+    if (sums.size() != titles.size())
+    {
+        sums.assign(titles.size(), 0);
+        sums[0] = std::numeric_limits<scalar>::quiet_NaN();
+    }
+    file_ =
+        std::make_unique<dataFile>(c.caseFolder() + "/postProcessing/energyLedger/" +
+                                       c.time.timeName(c.time.startTime()) + "/energyLedger.dat",
+                                   List<word>{"Energies of the whole body [J]" +
+                                              word(c.cloud.nDims == 2 ? ", per metre" : "") +
+                                              "; walls and what follows: put in since the start"},
+                                   List<word>(titles.begin(), titles.end()), 9);
+}
+
+List<scalar>& energyLedger::state() const
+{
+    return c_.cloud.history.at(entry);
+}
+
+scalar energyLedger::kineticNow() const
+{
+    const particleCloud& cloud = c_.cloud;
+    return 0.5 * c_.rho * cloud.volume() * parallelSum(cloud.n(), [&](label begin, label end) {
+               scalar sum = 0;
+               for (label i = begin; i < end; ++i)
+                   if (counts(i)) sum += cloud.Up[i].xyz().squaredNorm();
+               return sum;
+           });
+}
+
+std::array<scalar, energyLedger::nStores> energyLedger::energies() const
+{
+    const particleCloud& cloud = c_.cloud;
+    const scalar mass = c_.rho * cloud.volume();
+    scalar heights = 0;
+    for (label i = 0; i < cloud.n() && !c_.bodyForce.empty(); ++i)
+        if (counts(i)) heights -= c_.bodyForce[cloud.zone[i]].dot(cloud.x[i].xyz());
+    return {kineticNow(), c_.structure ? c_.structure->energy(cloud.x) : 0, mass * heights};
+}
+
+// What has changed since the last step's end has come with particles that were exchanged, or with a force that changes
+void energyLedger::begin()
+{
+    if (!on_) return;
+    terms_ = {}, left_ = 0;
+    begin_ = energies();
+    last_ = begin_;
+    if (const List<scalar>& sums = state(); !std::isnan(sums[0]))
+        std::copy_n(sums.begin(), nStores, last_.begin());
+    const bool open = c_.walls->hasOpen();
+    terms_[open ? faces : shifting] += begin_[kinetic] - last_[kinetic];
+    terms_[open ? faces : forces] += begin_[potential] - last_[potential];
+    terms_[step] += begin_[elastic] - last_[elastic];
+}
+
+scalar energyLedger::bookSprings(const List<vec4>& f, scalar dt)
+{
+    scalar free = 0, clamped = 0;
+    for (label i = 0; i < label(f.size()); ++i)
+        (counts(i) ? free : clamped) += dt * f[i].xyz().dot(c_.cloud.Up[i].xyz());
+    terms_[step] += free + clamped, terms_[walls] -= clamped;
+    return free;
+}
+
+void energyLedger::end()
+{
+    if (!on_) return;
+    end_ = energies();
+    terms_[step] += end_[elastic] - begin_[elastic];
+    terms_[forces] += end_[potential] - begin_[potential];
+    left_ = std::accumulate(end_.begin(), end_.end(), scalar(0)) -
+            std::accumulate(last_.begin(), last_.end(), scalar(0)) -
+            std::accumulate(terms_.begin(), terms_.end(), scalar(0));
+}
+
+void energyLedger::book()
+{
+    if (!on_) return;
+    List<scalar>& sums = state();
+    std::copy(end_.begin(), end_.end(), sums.begin());
+    for (int t = 0; t < nTerms; ++t) sums[nStores + t] += terms_[t];
+    sums.back() += left_;
+}
+
+std::pair<scalar, scalar> energyLedger::fromNothing() const
+{
+    if (!on_) return {0, 0};
+    scalar gained = left_, of = end_[kinetic] + begin_[kinetic];
+    for (int t = viscosity; t < nTerms; ++t) gained += terms_[t];
+    for (int t = 0; t < nTerms; ++t) of += std::abs(terms_[t]);
+    return {gained, of};
+}
+
+word energyLedger::largest() const
+{
+    int most = viscosity;
+    for (int t = viscosity; t < nTerms; ++t)
+        if (terms_[t] > terms_[most]) most = t;
+    return left_ > terms_[most] ? titles.back() : titles[nStores + most];
+}
+
+void energyLedger::writeLine()
+{
+    if (!on_) return;
+    const scalar whole = c_.walls->symmetryFactor();
+    const List<scalar>& sums = state();
+    file_->begin(c_.time.value());
+    for (const scalar value : sums) *file_ << whole * value;
+    file_->endRow();
+    info() << "energy ledger [J]:";
+    for (size_t k = 0; k < sums.size(); ++k)
+        if (sums[k] != 0 || k == kinetic || k + 1 == sums.size())
+            info() << " " << titles[k] << " " << str(whole * sums[k])
+                   << (k + 1 < sums.size() ? "," : "\n");
+}
+
+}  // namespace ispf
