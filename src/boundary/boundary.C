@@ -9,11 +9,13 @@ namespace ispf
 
 boundary::~boundary() = default;
 
-void boundary::setStep(scalar t0, scalar t1)
+void boundary::setStep(const stepTimes& times)
 {
-    content_->t0 = t0;
-    content_->walls.setStep(t0, t1), content_->group.setTime(t1);
-    content_->setStep(t0, t1);
+    content_->t0 = times.start;
+    content_->walls.setStep(times.start, times.end);
+    if (times.at != times.start) content_->walls.moveTo(times.at);
+    content_->group.setTime(times.pressures);
+    content_->setStep(times);
 }
 
 void boundary::keepVelocities(particleCloud& cloud) const
@@ -109,23 +111,36 @@ neighbourList::visibility boundary::visible(const particleCloud& cloud) const
 }
 
 // Fluid that stepped over a symmetry plane is reflected, over a cyclic side carried to the other
-void boundary::content::putBack(particleCloud& cloud)
+// All that a particle carries along turns with it
+List<label> boundary::content::putBack(particleCloud& cloud) const
 {
+    List<label> turned(balance.size(), 0);
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
     {
-        vector x = cloud.x[i].xyz(), u = cloud.Up[i].xyz();
+        vector x = cloud.x[i].xyz();
+        tensor R = tensor::Identity();
         imageGroup::wayHome back = group.wayBack(x);
         if (!back.map) continue;
         for (int k = 0; back.map && k < 8; ++k)
         {
             const structureImage& map = *back.map;
-            x = map(x), u = map.R * u, cloud.Up[i][3] += group.pressureOffset(map);
-            for (patchBalance& b : balance)
-                if (back.reflects && b.name == *back.patch) ++b.pushed;
+            x = map(x), R = map.R * R, cloud.Up[i][3] += group.pressureOffset(map);
+            for (const patchBalance& b : balance)
+                if (back.reflects && b.name == *back.patch) ++turned[&b - balance.data()];
             back = group.wayBack(x);
         }
-        cloud.x[i].setXyz(x), cloud.Up[i].setXyz(u);
+        cloud.x[i].setXyz(x), cloud.Up[i].setXyz(R * cloud.Up[i].xyz());
+        if (R == tensor::Identity()) continue;
+        for (auto& [name, field] : cloud.vectors)
+            if (label(field.size()) > i) field[i].setXyz(R * field[i].xyz());
     }
+    return turned;
+}
+
+void boundary::bringHome(particleCloud& cloud) const
+{
+    cloud.clearGhosts();
+    content_->putBack(cloud);
 }
 
 vector boundary::wayOverCyclic(const vector& x) const
@@ -144,6 +159,7 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
         b.flux = pair.flux(cloud, c.support), b.volume += b.flux * dt;
     }
     for (const openFace& face : c.openFaces) face.keepAlongNormals(cloud);
+    c.walls.moveTo(c.t0);
     c.guard.rememberWalls(c.walls);
     const List<scalar> swept = c.walls.moveTo(t1);
     c.checkLeavingWalls(t1, cloud.dx);
@@ -159,7 +175,8 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
             pushed += perWall[k];
         }
     }
-    c.putBack(cloud);
+    const List<label> turned = c.putBack(cloud);
+    for (size_t k = 0; k < turned.size(); ++k) c.balance[k].pushed += turned[k];
     const openFace::movingWalls moving = {
         c.walls.anyMoves(),
         [&](const vector& x, scalar distance) { return c.walls.movingWithin(x, distance); },

@@ -221,14 +221,14 @@ void boundary::content::findRims(const dictionary& patches, const siteFile& site
 }
 
 // Particles that two faces bring in would be carried into each other; one may take out what the other brings
-void boundary::content::setStep(scalar from, scalar to)
+void boundary::content::setStep(const stepTimes& times)
 {
-    for (openFace& face : openFaces) face.setStep(from, to);
+    for (openFace& face : openFaces) face.setStep(times.start, times.end, times.pressures);
     for (const sharedRim& rim : sharedRims)
         if (const openFace& one = openFaces[rim.face], &other = openFaces[rim.other];
             one.bringsIn() && other.bringsIn())
             throw fatalError("The faces " + one.name() + " and " + other.name() +
-                                 " meet, and at time " + str(to) +
+                                 " meet, and at time " + str(times.end) +
                                  " s both bring fluid in, which runs into each other there. Give "
                                  "both one 'direction', one of them the pressure, or leave a "
                                  "piece of wall between them",
@@ -251,7 +251,7 @@ boundary::boundary(const word& caseFolder, const dictionary& patches, const part
     c.visibility.find(c.walls, support);
     c.mirror.find(c.walls, support);
     c.addOpenFaces(caseFolder, patches, cloud);
-    c.setStep(t0, t0);
+    c.setStep({t0, t0, t0, t0});
     for (const char* file : {"/constant/wallParticles.hdf", "/constant/openSites.hdf"})
         if (isFile(caseFolder + file)) siteFile(caseFolder + file).checkPatches(patches);
     patches.checkAllRead();

@@ -49,9 +49,9 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
     backflow_ = dict.getInRangeOrDefault("backflow", 0, 1, 0.5);
 }
 
-void openFace::setStep(scalar t0, scalar t1)
+void openFace::setStep(scalar t0, scalar t1, scalar pressures)
 {
-    if (p_) given_ = p_->value(t1);
+    if (p_) given_ = p_->value(pressures);
     else inflow_->setStep(t0, t1);
 }
 

@@ -32,12 +32,14 @@ List<vector> points(const particleCloud& cloud)
 
 }  // namespace
 
-adjointStep::adjointStep(scalar rho, scalar mu, const word& viscosity, const dictionary& solution)
+adjointStep::adjointStep(scalar rho, scalar mu, const word& viscosity, const dictionary& solution,
+                         bool wellStarted)
     : rho_(rho), nu_(mu / rho)
 {
     const scalar reflection =
         solution.subOrEmptyDict("projection").getInRangeOrDefault("reflection", 0, 1, 0);
     leaves_ = reflection / (1 + reflection);
+    leavesAtFirst_ = wellStarted ? 1 : leaves_;
     const dictionary solvers = solution.subOrEmptyDict("solvers");
     const dictionary p = solvers.subOrEmptyDict("p");
     pressureSolver_ = linearSolver::New(
@@ -124,10 +126,10 @@ void adjointStep::project(particleCloud& cloud, const stencil& s, const List<sca
     const label n = cloud.n();
     f_ = divergence(cloud), source_ = q;
     source_.resize(n, 0);
-    loses_ = leaves_ > 0 || first_ ? sphc::gradSquaredTrace(s, cloud.Up) : List<scalar>();
+    loses_ = leaves() > 0 || first_ ? sphc::gradSquaredTrace(s, cloud.Up) : List<scalar>();
     for (label i = 0; i < n; ++i)
     {
-        if (leaves_ > 0 && !cloud.uFixed[i]) source_[i] += dt * leaves_ * loses_[i];
+        if (leaves() > 0 && !cloud.uFixed[i]) source_[i] += dt * leaves() * loses_[i];
         f_[i] = -rho_ / dt * (f_[i] - source_[i]);
     }
     if (first_) startPressure(cloud);
@@ -139,9 +141,9 @@ void adjointStep::project(particleCloud& cloud, const stencil& s, const List<sca
 // No way lies before the first step: the p that it leaves has the rest of s as well
 void adjointStep::settle(particleCloud& cloud, scalar cellSize, scalar dt)
 {
-    if (!first_) return;
+    if (!first_ || leaves() == 1) return;
     for (label i = 0; i < cloud.n(); ++i)
-        if (!cloud.uFixed[i]) f_[i] += (1 - leaves_) * rho_ * loses_[i];
+        if (!cloud.uFixed[i]) f_[i] += (1 - leaves()) * rho_ * loses_[i];
     solvePressure(cloud, f_, cellSize, dt);
 }
 
@@ -155,7 +157,7 @@ void adjointStep::book(particleCloud& cloud, scalar dt, energyLedger& energy)
     bookPressure(cloud, gp, dt, energy);
 }
 
-// (6.10) and (6.12), over the rows that the ledger counts
+// (6.10) and (6.12), over the rows that the ledger counts, without the step's first line
 void adjointStep::bookMomentum(particleCloud& cloud, const List<vec4>& gp, scalar dt,
                                energyLedger& energy)
 {
@@ -164,18 +166,18 @@ void adjointStep::bookMomentum(particleCloud& cloud, const List<vec4>& gp, scala
     cloud.fillGhosts(sticks_, false);
     viscous_.apply(sticks_, lap);
     const viscousPairs::power friction = viscous_.powerOf(sticks_);
-    scalar damped = 0, crossed = 0, forced = 0, left = 0;
+    scalar crossed = 0, forced = 0, left = 0;
     for (label i = 0; i < cloud.n(); ++i)
     {
         if (!energy.counts(i)) continue;
         const vector u = cloud.Up[i].xyz(), gained = u - before_[i].xyz();
         const vector viscous = -2 * dt * nu_ * lap[i].xyz(), a = dt * added_[i].xyz();
-        damped += gained.squaredNorm(), forced += u.dot(a);
+        forced += u.dot(a);
         crossed += (u - sticks_[i].xyz()).dot(viscous);
         left += u.dot(gained + dt / rho_ * gp[i].xyz() - a - viscous);
     }
     const scalar m = rho_ * cloud.volume(), rubs = m * dt * nu_;
-    energy[energyLedger::step] += m * (crossed - 0.5 * damped);
+    energy[energyLedger::step] += m * crossed;
     energy[energyLedger::forces] += m * forced;
     energy[energyLedger::solver] += m * left;
     energy[energyLedger::viscosity] += rubs * friction.dissipated;
@@ -192,6 +194,7 @@ void adjointStep::bookPressure(particleCloud& cloud, List<vec4>& gp, scalar dt,
     pair_.remainder(gp, m, direct);
     cloud.fillGradientGhosts(m);
     pair_.divergence(m, damps);
+    const scalar level = energy.level(cloud.Up);
     const List<scalar> div = divergence(cloud), &all = pair_.wallFlux(), &faces = pair_.faceFlux();
     for (label i = 0; i < cloud.n(); ++i)
     {
@@ -205,18 +208,13 @@ void adjointStep::bookPressure(particleCloud& cloud, List<vec4>& gp, scalar dt,
         else
         {
             energy[energyLedger::sources] += work * source_[i];
-            energy[energyLedger::solver] += work * (row - source_[i]);
+            const scalar left = dt * cloud.volume() * (row - source_[i]);
+            energy.bookResidual((cloud.Up[i][3] - level) * left, level * left);
         }
         if (!energy.counts(i))
             energy[cloud.isFluid(i) ? energyLedger::faces : energyLedger::walls] +=
                 dt * cloud.volume() * cloud.Up[i].xyz().dot(gp[i].xyz());
     }
-}
-
-scalar adjointStep::viscousLoss(particleCloud& cloud, scalar dt) const
-{
-    cloud.fillGhosts(cloud.Up, false);
-    return nu_ * dt * viscous_.dissipation(cloud.Up);
 }
 
 void adjointStep::correct(particleCloud& cloud, scalar dt) const

@@ -16,12 +16,6 @@ const List<scalar>& adjointSystem::setupRows(const volumeConstraint* volume,
     return rows_.viscous().sum();
 }
 
-scalar adjointSystem::viscousLoss(List<vec4>& u) const
-{
-    c_.cloud.fillGhosts(u, false);
-    return c_.nu() * dt_ * rows_.viscous().dissipation(u);
-}
-
 // {G p, p} of the fluid, {0, p} of the solid, ghosts filled
 void adjointSystem::stabiliserGradient(const List<vec4>& gp, List<vec4>& gs) const
 {
@@ -111,7 +105,7 @@ void adjointSystem::book(const List<vec4>& before, scalar theta, const List<vec4
     bookPressure(before, theta, q, drop, energy);
 }
 
-// (7.1) times dt u', over the rows that the ledger counts
+// (7.1) times dt u', over the rows that the ledger counts, without the step's first line
 void adjointSystem::bookMomentum(const List<vec4>& before, const List<vec4>& springForce,
                                  const List<vec4>& drop, energyLedger& energy) const
 {
@@ -124,7 +118,7 @@ void adjointSystem::bookMomentum(const List<vec4>& before, const List<vec4>& spr
         K_->apply(phi_, Ku_);
         for (label i = 0; i < cloud.nSolid(); ++i) spring[i].s -= dt_ * Ku_[i].s;
     }
-    scalar damped = 0, forced = 0, left = 0;
+    scalar forced = 0, left = 0;
     for (label i = 0; i < cloud.n(); ++i)
     {
         if (!energy.counts(i)) continue;
@@ -136,12 +130,11 @@ void adjointSystem::bookMomentum(const List<vec4>& before, const List<vec4>& spr
         vector rest = viscousFactor() * lap_[i].xyz() + V * gp_[i].xyz() - force;
         if (!drop.empty()) rest -= V * drop[i].xyz();  // it is in gp_ already
         if (i < label(spring.size())) rest -= spring[i].xyz();
-        damped += gained.squaredNorm(), forced += dt_ * u.dot(force);
+        forced += dt_ * u.dot(force);
         left += u.dot(m * gained + dt_ * rest);
     }
     const viscousPairs::power friction = rows_.viscous().powerOf(phi_);
     const scalar rubs = dt_ * c_.mu * V;
-    energy[energyLedger::step] -= 0.5 * m * damped;
     energy[energyLedger::forces] += forced;
     energy[energyLedger::solver] += left;
     energy[energyLedger::viscosity] += rubs * friction.dissipated;
@@ -162,6 +155,7 @@ void adjointSystem::bookPressure(const List<vec4>& before, scalar theta, const L
     for (const auto& [g, offset] : pressureOffsets()) gs[g][3] += offset;
     rows_.continuity(phi_, gs, rows);
     addSolidMemory(before, theta, rows);
+    const scalar level = energy.level(phi_);
     const List<scalar>&all = rows_.pair().wallFlux(), &faces = rows_.pair().faceFlux();
     for (label i = 0; i < cloud.n(); ++i)
     {
@@ -174,7 +168,8 @@ void adjointSystem::bookPressure(const List<vec4>& before, scalar theta, const L
         else
         {
             energy[energyLedger::sources] += work * q[i];
-            energy[energyLedger::solver] += work * (row - q[i]);
+            const scalar left = dt_ * cloud.volume() * (row - q[i]);
+            energy.bookResidual((phi_[i][3] - level) * left, level * left);
         }
         if (energy.counts(i)) continue;
         const vector g = gp_[i].xyz() - (drop.empty() ? vector(vector::Zero()) : drop[i].xyz());

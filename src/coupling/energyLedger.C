@@ -80,6 +80,15 @@ void energyLedger::begin()
     terms_[step] += begin_[elastic] - last_[elastic];
 }
 
+scalar energyLedger::level(const List<vec4>& up) const
+{
+    scalar sum = 0;
+    label n = 0;
+    for (label i = c_.cloud.nSolid(); i < c_.cloud.n(); ++i)
+        if (counts(i)) sum += up[i][3], ++n;
+    return n > 0 ? sum / n : 0;
+}
+
 scalar energyLedger::bookSprings(const List<vec4>& f, scalar dt)
 {
     scalar free = 0, clamped = 0;

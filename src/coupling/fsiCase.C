@@ -243,13 +243,14 @@ void fsiCase::countStrays()
     if (n != before) cloud.history["strays"] = {scalar(n)};
 }
 
-void fsiCase::updateNeighbours(scalar t0, scalar t1, scalar behind)
+void fsiCase::updateNeighbours(const stepTimes& times, scalar behind)
 {
-    walls->setStep(t0, t1);
+    walls->setStep(times);
+    if (times.at != times.start) walls->bringHome(cloud);
     if (behind > 0) walls->recallVelocities(cloud, behind);
     carrySolids();
     sortParticles();
-    bodyForce = bodyForceAt(0.5 * (t0 + t1));
+    bodyForce = bodyForceAt(0.5 * (times.start + times.end));
     walls->setFlags(cloud, rho, bodyForce);
     walls->updateGhosts(cloud);
     list.build(cloud, *kernel, walls->visible(cloud));

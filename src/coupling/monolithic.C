@@ -19,7 +19,9 @@
 #include "FGMRES.H"
 #include "monolithicPreconditioner.H"
 #include "shiftingOfCase.H"
+#include "sphc.H"
 #include "stepReport.H"
+#include "timeScheme.H"
 #include "volumeLedger.H"
 #include "worstRow.H"
 
@@ -33,8 +35,6 @@ namespace ispf
 namespace
 {
 
-// {u, v, w, p} of the start of the last step, carried by the particles for the guess of the next one
-const word oldField = "Up_0";
 // What the rate of J has missed in the last step
 const word missedField = "missedJ";
 
@@ -54,10 +54,12 @@ public:
           tolerance_(dict_.getInRangeOrDefault("tolerance", 1e-14, 0.1, 1e-4)),
           absTolerance_(dict_.getInRangeOrDefault("absTolerance", 0, 0.1, 1e-5)),
           maxIter_(dict_.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
+          time_(c),
           makesGood_(dict_.getOrDefault("divergenceDefect", true)),
           shifting_(c),
           density_(c.solution, *c.kernel, c.cloud)
     {
+        time_.keepLevels();
         system_->enclosed().makeGood(makesGood_);
         if (!c.structure) return;
         c.cloud.scalars[missedField].resize(c.cloud.n(), 0);
@@ -74,13 +76,14 @@ private:
     word advice() const override;
 
     void structureState();
-    List<scalar> guess(scalar dt) const;
+    List<scalar> guess() const;
     scalar feedback(label i, scalar dt) const;
     scalar missed(label i, scalar dt) const;
     template <class Source>
     void book(const word& entry, scalar dt, Source&& source);
-    void accept(const List<scalar>& z, scalar dt);
+    void accept(const List<scalar>& z);
     void account(scalar dt);
+    void addWay(scalar dt);
     word solve(scalar dt, List<scalar>& z);
     void printContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt);
     scalar velocityScale() const;
@@ -92,6 +95,7 @@ private:
     monolithicPreconditioner preconditioner_;
     scalar theta_, alpha_, tolerance_, absTolerance_;
     label maxIter_;
+    timeScheme time_;
     bool makesGood_;
     shiftingOfCase shifting_;
     densityFeedback density_;
@@ -142,21 +146,31 @@ void monolithic::structureState()
     surface_.initialise(c_.cloud, c_.list, F_, images);
     volume_->setup(F_);
     surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
+    // the implicit step starts from x_0: f(x_b) - K (x_0 + tau u - x_b)
+    List<vec4> way;
+    time_.ahead(c_.cloud, way);
+    if (way.empty()) return;
+    List<vec4> Kx(c_.cloud.nSolid());
+    K_.apply(way, Kx);
+    for (label i = 0; i < c_.cloud.nSolid(); ++i) springForce_[i].s += Kx[i].s;
 }
 
 // The last step's change goes on.  With a pressure that rises steadily this starts nearer to the
 // solution than {u, p} of now, by a factor of ten and more
-List<scalar> monolithic::guess(scalar dt) const
+List<scalar> monolithic::guess() const
 {
     const particleCloud& cloud = c_.cloud;
-    const auto old = cloud.vectors.find(oldField);
-    const auto lastDt = cloud.history.find(oldField);
+    const auto old = cloud.vectors.find(levelBefore);
+    const auto lastDt = cloud.history.find(levelBefore);
     const bool has = old != cloud.vectors.end() && lastDt != cloud.history.end();
-    const scalar ratio = has ? dt / lastDt->second[0] : 0;
+    const scalar before = has ? lastDt->second[0] : 1;
+    const scalar u = has ? time_.velocitiesAhead() / before : 0;
+    const scalar p = has ? time_.pressuresAhead() / before : 0;
+    const simd4 ratio = {u, u, u, p};
     List<scalar> z(4 * cloud.n());
     for (label i = 0; i < cloud.n(); ++i)
     {
-        simd4 up = cloud.Up[i].s;
+        simd4 up = time_.now()[i].s;
         if (has) up += ratio * (up - old->second[i].s);
         for (int a = 0; a < 3; ++a) z[4 * i + a] = cloud.uFixed[i] ? cloud.Up[i][a] : up[a];
         z[4 * i + 3] = cloud.pHeld(i) ? cloud.heldPressure(i) : up[3];
@@ -185,11 +199,9 @@ void monolithic::book(const word& entry, scalar dt, Source&& source)
     booked[0] += rate * c_.cloud.volume() * dt;
 }
 
-void monolithic::accept(const List<scalar>& z, scalar dt)
+void monolithic::accept(const List<scalar>& z)
 {
     particleCloud& cloud = c_.cloud;
-    cloud.vectors[oldField].assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
-    cloud.history[oldField] = {dt};
     cloud.history.erase(projected);
     for (label i = 0; i < cloud.n(); ++i)
         cloud.Up[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], z[4 * i + 3]};
@@ -205,10 +217,22 @@ void monolithic::account(scalar dt)
         book(solidFeedback, dt, [&](label i) { return feedback(i, dt); });
         book(solidDefect, dt, [&](label i) { return missed(i, dt); });
         List<scalar> missed;
-        volume_->overStep(c_.cloud.Up, dt, cofactor, missed);
+        // a rate of the middle misses nothing that feedback could not relax
+        if (time_.midway()) cofactor = volume_->cofactor(), missed.assign(c_.cloud.nSolid(), 0);
+        else volume_->overStep(c_.cloud.Up, dt, cofactor, missed);
         std::copy(missed.begin(), missed.end(), c_.cloud.scalars.at(missedField).begin());
     }
     system_->enclosed().account(c_.cloud, dt, cofactor);
+}
+
+// div u is to be zero where the particles will be
+void monolithic::addWay(scalar dt)
+{
+    particleCloud& cloud = c_.cloud;
+    cloud.fillGhosts(cloud.Up, false);
+    const List<scalar> loses = sphc::gradSquaredTrace({cloud, c_.list, c_.correction}, cloud.Up);
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (!cloud.beyondOpen(i)) q_[i] += dt * loses[i];
 }
 
 // Solves for z = {u, v, w, p} of the end of the step; an empty text, or why it cannot be accepted
@@ -221,8 +245,9 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     for (label i = 0; i < cloud.nSolid(); ++i) q[i] = feedback(i, dt) + missed(i, dt);
     for (label i = cloud.nSolid(); i < cloud.n() && !c_.source.empty(); ++i)
         q[i] = c_.source[cloud.zone[i]];
-    if (c_.structure) system_->setup(dt, volume_.get(), &surface_, &K_);
-    else system_->setup(dt, nullptr, nullptr, nullptr);
+    if (time_.wellStarts()) addWay(dt);
+    if (c_.structure) system_->setup(time_.tau(), volume_.get(), &surface_, &K_);
+    else system_->setup(time_.tau(), nullptr, nullptr, nullptr);
     if (density_.on())
         density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, system_->enclosed().bodyOf()),
                        [&](label i) { return c_.isCut(i); });
@@ -230,11 +255,11 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     preconditioner_.setup();
     system_->rightHandSide(theta_, springForce_, q, b);
 
-    z = guess(dt);
+    z = guess();
     solverControls controls;
     controls.tolerance = 0, controls.relTol = tolerance_, controls.maxIter = maxIter_;
-    controls.absTol =
-        std::sqrt(scalar(cloud.n())) * std::max(absTolerance_ * velocityScale(), rounding(dt, z));
+    controls.absTol = std::sqrt(scalar(cloud.n())) *
+                      std::max(absTolerance_ * velocityScale(), rounding(time_.tau(), z));
     FGMRES solver(controls, "Up", maxIter_);
     const solverPerformance result = solver.solve(*system_, preconditioner_, b, z);
     system_->enclosed().keepLevel(cloud, z);
@@ -276,25 +301,30 @@ word monolithic::advice() const
 word monolithic::attempt(scalar t, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
-    c_.updateNeighbours(t, t + dt);
+    time_.start(cloud, t, dt);
+    c_.updateNeighbours(time_.times());
     system_->setStep(t, t + dt);
     energy_.begin();
     structureState();
-    List<scalar> z;
     system_->hydrostatic().take(cloud);
+    time_.begin(cloud);
+    const List<vec4> start(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
+    List<scalar> z;
     if (const word reason = atTime(t + dt, [&] { return solve(dt, z); }); !reason.empty())
         return reason;
-    accept(z, dt);
-    if (energy_.on()) system_->book(cloud.vectors.at(oldField), theta_, springForce_, q_, energy_);
+    accept(z);
+    if (energy_.on())
+        energy_.weigh(time_.weight(),
+                      [&] { system_->book(start, theta_, springForce_, q_, energy_); });
     if (const word reason = tooFar(dt); !reason.empty()) return reason;
     account(dt);
+    time_.end(cloud, energy_);
     system_->hydrostatic().giveBack(cloud);
 
     c_.followOpen(dt);
-    // Shift first, with the neighbours at hand, then move: x^{n+1} = x^n + dt u^{n+1}
-    energy_.shifts([&] { shifting_.shift(dt, [&] { return system_->viscousLoss(cloud.Up); }); });
-    for (label i = 0; i < cloud.n(); ++i)
-        cloud.x[i].s += dt * simd4{cloud.Up[i][0], cloud.Up[i][1], cloud.Up[i][2], 0};
+    // Shift first, with the neighbours at hand, then move
+    energy_.shifts([&] { shifting_.shift(dt, energy_.spare()); });
+    time_.move(cloud);
     energy_.end();
     if (const word reason = gains(); !reason.empty()) return reason;
     energy_.book();

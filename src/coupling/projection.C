@@ -20,6 +20,7 @@
 #include "shiftingOfCase.H"
 #include "solverPerformance.H"
 #include "stepReport.H"
+#include "timeScheme.H"
 
 #include <algorithm>
 #include <cmath>
@@ -44,15 +45,26 @@ public:
                     "explicit"),
           mean_(dict_.chooseOrDefault("positionUpdate", {"symplectic", "mean"}, "symplectic") ==
                 "mean"),
+          time_(c),
           limits_(c, explicit_, mean_, dict_.subOrEmptyDict("limits")),
           step_(fractionalStep::New(c, explicit_ ? "explicit" : "implicit")),
           shifting_(c),
           density_(c.solution, *c.kernel, c.cloud),
           hydrostatic_(c)
     {
-        info() << "projection: viscosity " << (explicit_ ? "explicit" : "implicit")
-               << ", positionUpdate " << (mean_ ? "mean" : "symplectic") << ", shifting "
-               << shifting_.describe() << std::endl;
+        const auto refuse = [&](const word& key) {
+            dict_.fail(key,
+                       "With ddtScheme DLN, which is of second order, nothing is left for this "
+                       "entry to do. "
+                       "Leave it away, or take ddtScheme Euler in system/sphSchemes");
+        };
+        if (time_.secondOrder() && mean_) refuse("positionUpdate");
+        if (time_.secondOrder() && dict_.getOrDefault<scalar>("reflection", 0) > 0)
+            refuse("reflection");
+        info() << "projection: ddtScheme " << time_.name() << ", viscosity "
+               << (explicit_ ? "explicit" : "implicit") << ", positionUpdate "
+               << (mean_ ? "mean" : "symplectic") << ", shifting " << shifting_.describe()
+               << std::endl;
     }
 
     stepLimit limit() const override;
@@ -67,10 +79,10 @@ private:
     vector slopeBehind() const;
     void addSlope(scalar sign, const vector& ofState);
     void solve(const stencil& s, scalar dt);
-    void move(const List<vec4>& before, scalar dt);
 
     dictionary dict_;
     bool explicit_, mean_;
+    timeScheme time_;
     projectionLimits limits_;
     std::unique_ptr<fractionalStep> step_;
     shiftingOfCase shifting_;
@@ -112,18 +124,6 @@ List<scalar> projection::sources() const
     if (c_.source.empty()) return q;
     for (label i = 0; i < c_.cloud.n(); ++i) q.push_back(c_.source[c_.cloud.zone[i]]);
     return q;
-}
-
-void projection::move(const List<vec4>& before, scalar dt)
-{
-    particleCloud& cloud = c_.cloud;
-    parallelFor(cloud.n(), [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-        {
-            const simd4 u = mean_ ? 0.5 * (before[i].s + cloud.Up[i].s) : cloud.Up[i].s;
-            cloud.x[i].s += dt * simd4{u[0], u[1], u[2], 0};
-        }
-    });
 }
 
 // An elastic wall gives way, whatever is pushed
@@ -179,8 +179,10 @@ void projection::solve(const stencil& s, scalar dt)
     step_->project(cloud, s, q, c_.kernel->support(), dt);
     if (energy_.on())
     {
-        step_->book(cloud, dt, energy_);
-        energy_[energyLedger::forces] -= energy_.bookSprings(spring, dt);
+        energy_.weigh(time_.weight(), [&] {
+            step_->book(cloud, dt, energy_);
+            energy_[energyLedger::forces] -= energy_.bookSprings(spring, dt);
+        });
     }
     step_->settle(cloud, c_.kernel->support(), dt);
     hydrostatic_.giveBack(cloud), addSlope(1, slope_);
@@ -192,17 +194,18 @@ void projection::solve(const stencil& s, scalar dt)
 
 word projection::attempt(scalar t, scalar dt)
 {
-    c_.updateNeighbours(t, t + dt, fractionalStep::behind(c_.cloud));
+    particleCloud& cloud = c_.cloud;
+    time_.start(cloud, t, dt);
+    c_.updateNeighbours(time_.times(), fractionalStep::behind(cloud));
     hydrostatic_.setStep(t, t + dt);
     slope_ = c_.walls->pressureSlope();
-    particleCloud& cloud = c_.cloud;
     energy_.begin();
     const stencil s{cloud, c_.list, c_.correction};
-    const List<vec4> before = mean_ ? cloud.Up : List<vec4>();
     const word fails = atTime(t + dt, [&]() -> word {
         try
         {
-            solve(s, dt);
+            time_.begin(cloud);
+            solve(s, time_.tau());
             return "";
         }
         catch (const notConverged& e)
@@ -212,11 +215,11 @@ word projection::attempt(scalar t, scalar dt)
     });
     if (!fails.empty()) return fails;
     if (const word reason = tooFar(dt); !reason.empty()) return reason;
+    time_.end(cloud, energy_);
     c_.followOpen(dt);
-
     // shifted with the neighbours at hand, then moved
-    energy_.shifts([&] { shifting_.shift(dt, [&] { return step_->viscousLoss(cloud, dt); }); });
-    move(before, dt);
+    energy_.shifts([&] { shifting_.shift(dt, energy_.spare()); });
+    time_.move(cloud, mean_);
     energy_.end();
     if (const word reason = gains(); !reason.empty()) return reason;
     energy_.book();

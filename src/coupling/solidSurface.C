@@ -304,7 +304,8 @@ void solidSurface::addFlux(const List<vec4>& u, const List<tensor>& dF, List<sca
     scalar gives = 0;
     forShares([&](label k, const sided& part, label j, scalar w) {
         if (k != last || part.side != side)
-            gives = perVolume * part.S.dot(u[k].xyz() + dF[k] * part.e0), last = k, side = part.side;
+            gives = perVolume * part.S.dot(u[k].xyz() + dF[k] * part.e0), last = k,
+            side = part.side;
         div[cloud_->ownerOf(j)] -= w * gives;
     });
 }

@@ -53,22 +53,6 @@ void viscousPairs::apply(const List<vec4>& phi, List<vec4>& result) const
     });
 }
 
-scalar viscousPairs::dissipation(const List<vec4>& u) const
-{
-    return parallelSum(cloud_->n(), [&](label begin, label end) {
-        scalar sum = 0;
-        for (label i = begin; i < end; ++i)
-            for (std::int64_t k = list_->start[i]; k < list_->start[i + 1]; ++k)
-            {
-                // a rigid neighbour has no row of its own; an image's row is that of its source
-                const label j = list_->index[k];
-                const scalar rows = cloud_->phase[j] == phaseType::rigid ? 2 : 1;
-                sum -= rows * K_[k] * (u[i].xyz() - u[j].xyz()).squaredNorm();
-            }
-        return sum;
-    });
-}
-
 // 2 K u_i.(u_i - u_j) is K |u_i - u_j|^2, the half of the pair, and K (u_i + u_j).(u_i - u_j), which the row of j or of its
 // image has with the other sign.  A wall has no row, and its image's has that of the wall's own motion
 viscousPairs::power viscousPairs::powerOf(const List<vec4>& u) const

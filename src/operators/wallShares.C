@@ -13,8 +13,7 @@ List<label> besideWalls(const particleCloud& cloud, const neighbourList& list)
 {
     List<char> sees(cloud.n(), 0);
     parallelFor(cloud.n(), [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-            sees[i] = list.wall[i] < list.start[i + 1];
+        for (label i = begin; i < end; ++i) sees[i] = list.wall[i] < list.start[i + 1];
     });
     List<label> found;
     for (label i = 0; i < cloud.n(); ++i)

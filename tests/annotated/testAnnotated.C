@@ -39,7 +39,7 @@ const home homes[] = {
     {"models/", "", "structureProperties"},
     {"linearSolvers|operators/(density|particleSh|limitedSh)", "", "sphSolution"},
     {"operators/operatorSchemes", "", "sphSchemes"},
-    {"coupling/fsiCase", "schemes", "sphSchemes"},
+    {"coupling/fsiCase|coupling/timeScheme", ".*schemes", "sphSchemes"},
     {"coupling/shiftingFrame", "", "boundary"},
     {"coupling/fsiCase", "solution", "sphSolution"},
     {"coupling/fsiCase", "g|dict|", "g"},

@@ -116,42 +116,24 @@ TEST_CASE("who moves along sees the same, however far particles go in a step")
     CHECK(velocityDifference(moving, scene("still", "", false).run()) < 1e-9);
 }
 
-TEST_CASE(
-    "a flow that is not resolved: p makes it no faster, and the corrected pair is refused before "
-    "it would")
+TEST_CASE("a flow that is not resolved: p makes it no faster")
 {
-    for (const bool adjoint : {true, false})
+    scene coarse("coarse", "", false);
+    coarse.mu = 0.001;  // cell Reynolds number 50
+    coarse.write();
+    capturedLog log;
+    Time time(coarse.files.path());
+    fsiCase c(time);
+    const auto scheme = couplingScheme::New(c);
+    const auto kinetic = [&] {
+        scalar sum = 0;
+        for (label i = 0; i < c.cloud.n(); ++i) sum += c.cloud.Up[i].xyz().squaredNorm();
+        return sum;
+    };
+    const scalar first = kinetic();
+    for (int k = 0; k < 200; ++k)
     {
-        CAPTURE(adjoint);
-        scene coarse("coarse", "", false);
-        coarse.mu = 0.001;  // cell Reynolds number 50
-        if (!adjoint) coarse.files.schemes = "pair corrected;";
-        coarse.write();
-        capturedLog log;
-        Time time(coarse.files.path());
-        fsiCase c(time);
-        const auto scheme = couplingScheme::New(c);
-        const auto kinetic = [&] {
-            scalar sum = 0;
-            for (label i = 0; i < c.cloud.n(); ++i) sum += c.cloud.Up[i].xyz().squaredNorm();
-            return sum;
-        };
-        const scalar first = kinetic();
-        scalar most = 0;
-        word said;
-        try
-        {
-            for (int k = 0; k < 200; ++k)
-                runSteps(c, *scheme, 0.01, 1), most = std::max(most, kinetic());
-        }
-        catch (const std::exception& e)
-        {
-            said = e.what();
-        }
-        CHECK(most < first);
-        CHECK((said == "") == adjoint);
-        for (const char* part :
-             {"of its kinetic energy out of nothing", "at a cell Reynolds number U dx/nu of "})
-            CHECK((said.find(part) != word::npos) == !adjoint);
+        runSteps(c, *scheme, 0.01, 1);
+        CHECK(kinetic() < first);
     }
 }

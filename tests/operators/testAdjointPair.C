@@ -163,7 +163,7 @@ TEST_CASE("viscosity takes energy from any flow between walls at rest, as much a
             scalar loss = 0;
             for (label i = 0; i < w.cloud.n(); ++i) loss += 2 * u[i].xyz().dot(half[i].xyz());
             CHECK(loss > 0);
-            CHECK(viscous.dissipation(u) == doctest::Approx(loss).epsilon(1e-12));
+            CHECK(-viscous.powerOf(u).dissipated == doctest::Approx(loss).epsilon(1e-12));
         }
 }
 
