@@ -39,6 +39,15 @@ energyLedger::energyLedger(fsiCase& c) : c_(c), on_(c.cloud.wallsApart)
                                    List<word>(titles.begin(), titles.end()), 9);
 }
 
+List<scalar> energyLedger::sums(const fsiCase& c)
+{
+    if (!c.cloud.wallsApart) return {};
+    const auto kept = c.cloud.history.find(entry);
+    if (kept == c.cloud.history.end() || kept->second.size() != titles.size())
+        return List<scalar>(titles.size() - nStores, 0);
+    return List<scalar>(kept->second.begin() + nStores, kept->second.end());
+}
+
 List<scalar>& energyLedger::state() const
 {
     return c_.cloud.history.at(entry);

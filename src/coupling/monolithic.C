@@ -133,7 +133,8 @@ couplingScheme::stepLimit monolithic::limit() const
     if (!c_.time.adjustTimeStep() || u == 0) return {1e30, "no"};
     const scalar past = std::max(0.1 * c_.cloud.dx / u, 2 * c_.nu() / (u * u));
     const scalar dt = 0.4 * c_.kernel->h() / u;
-    return {c_.structure ? std::min(dt, past) : dt, "CFL"};
+    if (c_.structure && past < dt) return {past, "CFL beside a solid"};
+    return {dt, "CFL"};
 }
 
 void monolithic::structureState()
@@ -146,13 +147,6 @@ void monolithic::structureState()
     surface_.initialise(c_.cloud, c_.list, F_, images);
     volume_->setup(F_);
     surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
-    // the implicit step starts from x_0: f(x_b) - K (x_0 + tau u - x_b)
-    List<vec4> way;
-    time_.ahead(c_.cloud, way);
-    if (way.empty()) return;
-    List<vec4> Kx(c_.cloud.nSolid());
-    K_.apply(way, Kx);
-    for (label i = 0; i < c_.cloud.nSolid(); ++i) springForce_[i].s += Kx[i].s;
 }
 
 // The last step's change goes on.  With a pressure that rises steadily this starts nearer to the
@@ -217,9 +211,7 @@ void monolithic::account(scalar dt)
         book(solidFeedback, dt, [&](label i) { return feedback(i, dt); });
         book(solidDefect, dt, [&](label i) { return missed(i, dt); });
         List<scalar> missed;
-        // a rate of the middle misses nothing that feedback could not relax
-        if (time_.midway()) cofactor = volume_->cofactor(), missed.assign(c_.cloud.nSolid(), 0);
-        else volume_->overStep(c_.cloud.Up, dt, cofactor, missed);
+        volume_->overStep(c_.cloud.Up, dt, cofactor, missed);
         std::copy(missed.begin(), missed.end(), c_.cloud.scalars.at(missedField).begin());
     }
     system_->enclosed().account(c_.cloud, dt, cofactor);
@@ -323,7 +315,7 @@ word monolithic::attempt(scalar t, scalar dt)
 
     c_.followOpen(dt);
     // Shift first, with the neighbours at hand, then move
-    energy_.shifts([&] { shifting_.shift(dt, energy_.spare()); });
+    energy_.shifts([&] { shifting_.shift(dt, energy_.heated()); });
     time_.move(cloud);
     energy_.end();
     if (const word reason = gains(); !reason.empty()) return reason;

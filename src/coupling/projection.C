@@ -218,7 +218,7 @@ word projection::attempt(scalar t, scalar dt)
     time_.end(cloud, energy_);
     c_.followOpen(dt);
     // shifted with the neighbours at hand, then moved
-    energy_.shifts([&] { shifting_.shift(dt, energy_.spare()); });
+    energy_.shifts([&] { shifting_.shift(dt, energy_.heated()); });
     time_.move(cloud, mean_);
     energy_.end();
     if (const word reason = gains(); !reason.empty()) return reason;

@@ -32,6 +32,8 @@ timeScheme::timeScheme(const fsiCase& c)
     : c_(c), DLN_(c.schemes.chooseOrDefault("ddtScheme", {"Euler", "DLN"}, "Euler") == "DLN")
 {
     if (DLN_ && !c.cloud.wallsApart) c.schemes.fail("ddtScheme", "DLN wants pair adjoint");
+    if (DLN_ && c.structure)
+        c.schemes.fail("ddtScheme", "DLN is for fluid alone; with a structure take Euler");
     keeps_ = DLN_;
 }
 
@@ -84,17 +86,6 @@ void timeScheme::begin(particleCloud& cloud)
     for (label i = 0; i < n; ++i)
         if (isFree(cloud, i))
             cloud.Up[i].setXyz(ofNow * now_[i].xyz() + ofBefore * before[i].xyz());
-}
-
-// x_0 is to positions what u_0 is to velocities: x_b - x_0 = (x_b - x^n) + (b0 - b2 a0/a2) (x^n - x^{n-1})
-void timeScheme::ahead(const particleCloud& cloud, List<vec4>& way) const
-{
-    way.clear();
-    if (!(to_ > 0)) return;
-    const vec4 *ahead = fieldOf(cloud, aheadOfStep), *last = fieldOf(cloud, lastWay);
-    const scalar ofLast = (b0_ - b2_ / a2_ * a0_) * before_;
-    way.resize(cloud.n());
-    for (label i = 0; i < cloud.n(); ++i) way[i].s = ahead[i].s + ofLast * last[i].s;
 }
 
 void timeScheme::end(particleCloud& cloud, energyLedger& energy)

@@ -7,21 +7,21 @@
 //     kinetic       sum 1/2 rho V u^2
 //     elastic       of the structure
 //     potential     - sum rho V b.x, b the body force of each zone
-//     dissipation   1/2 mu sum_i V sum_j (c_i + c_j) |F_ij| |u_i - u_j|^2, what the viscosity's own pair sum
-//                   (sphc::laplacian) takes out; pairs with images count half, the other half is the image's
-//                   less mu int u.W n dA on turning walls, W the gradient of their velocity: 2 mu int D:D dV
+//     dissipation   what the viscosity that is solved takes out, (2.14); pairs with images count half, the other half is
+//                   the image's; less mu int u.W n dA on turning walls, W the gradient of their velocity: 2 mu int D:D dV
 //     wallPower     what moving walls put in: minus the load on them, see bodyLoad.H, times their velocity, of the step
 //                   that led there
 //     openPower     what comes in through open faces: - int (p + 1/2 rho u^2 - rho b.x) u.n - u.tau.n dA, by surfaceFit
 //     dissipated, wallWork, openWork    their integrals since the case began, by the trapezoidal rule over the steps
 //                   at which it is executed
 //
-// kinetic + elastic + potential + dissipated - wallWork - openWork is constant but for what the scheme itself takes:
-// implicit steps damp by some dt/2 sum rho V (du/dt)^2.
+// These are measured on the state that there is.  With `pair adjoint` the energy ledger's terms follow, walls to leftOver, as
+// the steps have summed them (energyLedger.H): kinetic + elastic + potential is what it was at the start plus their sum.
 #include "functionObject.H"
 
 #include "bodyLoad.H"
-#include "sphc.H"
+#include "energyLedger.H"
+#include "viscousPairs.H"
 
 namespace ispf
 {
@@ -29,25 +29,22 @@ namespace ispf
 namespace
 {
 
+// The viscosity that the step solves, of the particles before open faces
 scalar dissipationOf(const presentState& s, scalar mu)
 {
-    const particleCloud& cloud = s.cloud;
-    const List<scalar> c = sphc::laplacianScale({cloud, s.list, s.B});
-    const scalar sum = parallelSum(cloud.n(), [&](label begin, label end) {
-        scalar part = 0;
-        for (label i = begin; i < end; ++i)
-            for (std::int64_t k = s.list.start[i]; k < s.list.start[i + 1] && !cloud.pFixed[i]; ++k)
-            {
-                const label j = s.list.index[k];
-                const bool rigid = cloud.phase[j] == phaseType::rigid;
-                const scalar both = rigid ? 4 * c[i] : c[i] + c[j];
-                const vector e = cloud.Up[i].xyz() - cloud.Up[j].xyz();
-                part -= cloud.friction(i, j) * sphc::viscousF(cloud, s.list, k) * both *
-                        e.squaredNorm();
-            }
-        return part;
-    });
-    return 0.5 * mu * cloud.volume() * sum;
+    viscousPairs viscous;
+    viscous.setup({s.cloud, s.list, s.B});
+    return -mu * s.cloud.volume() * viscous.powerOf(s.cloud.Up).dissipated;
+}
+
+List<word> titles(bool ledger)
+{
+    List<word> all = {"kinetic",    "elastic",  "potential", "dissipation", "wallPower",
+                      "dissipated", "wallWork", "openPower", "openWork"};
+    if (ledger)
+        all.insert(all.end(), energyLedger::titles.begin() + energyLedger::nStores,
+                   energyLedger::titles.end());
+    return all;
 }
 
 class energy : public functionObject
@@ -58,9 +55,7 @@ public:
           file_(table("energy.dat",
                       {"Energies [J], powers [W] and their integrals [J]" +
                        word(c.cloud.nDims == 2 ? ", per metre" : "")},
-                      {"kinetic", "elastic", "potential", "dissipation", "wallPower", "dissipated",
-                       "wallWork", "openPower", "openWork"},
-                      9))
+                      titles(c.cloud.wallsApart), 9))
     {
         for (const word& w : c.walls->movingWalls())
             walls_.push_back(loadedBody::wall(w, c, dict.where()));
@@ -87,6 +82,7 @@ public:
             << (case_.structure ? whole * case_.structure->energy(case_.cloud.x) : 0)
             << whole * potential << now_.dissipation << now_.wallPower << dissipated_ << wallWork_
             << (measuresAll_ ? now_.openPower : nan) << (measuresAll_ ? openWork_ : nan);
+        for (const scalar put : energyLedger::sums(case_)) file_ << whole * put;
         file_.endRow();
     }
 

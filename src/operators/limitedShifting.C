@@ -123,42 +123,6 @@ void balance(const particleCloud& cloud, List<vector>& v)
     }
 }
 
-// u_i += s sum_j c_ij (u_j - u_i) over fluid, c_ij = c_ji >= 0 and sum_j c_ij <= 1/2: the least s with which the kinetic energy
-// falls by `excess`, over rho V, or s = 1 (8.33).  Returns by what it has changed
-scalar smooth(particleCloud& cloud, const neighbourList& list, scalar excess)
-{
-    if (!(excess > 0)) return 0;
-    cloud.fillGhosts(cloud.Up, false);
-    const label first = cloud.nSolid(), nFluid = cloud.n() - first;
-    List<vec4> w(nFluid);
-    const scalar most = maxOf(nFluid, [&](label begin, label end) {
-        scalar largest = 0;
-        for (label i = first + begin; i < first + end; ++i)
-        {
-            simd4 sum = {};
-            scalar weights = 0;
-            for (std::int64_t k = list.own[i]; k < list.mid[i]; ++k)
-                weights -= list.F[k],
-                    sum -= list.F[k] * (cloud.Up[list.index[k]].s - cloud.Up[i].s);
-            w[i - first].s = sum, largest = std::max(largest, weights);
-        }
-        return largest;
-    });
-    scalar along = 0, square = 0;  // the energy changes by along s + square s^2/2
-    for (label k = 0; k < nFluid; ++k)
-    {
-        const vector change = w[k].xyz() / (2 * most);
-        w[k] = vec4::from(change);
-        along += cloud.Up[first + k].xyz().dot(change), square += change.squaredNorm();
-    }
-    if (!(along < 0)) return 0;
-    const scalar root = along * along - 2 * square * excess;
-    const scalar s =
-        std::min(scalar(1), root > 0 ? 2 * excess / (std::sqrt(root) - along) : -along / square);
-    for (label k = 0; k < nFluid; ++k) cloud.Up[first + k].s += s * w[k].s;
-    return along * s + 0.5 * square * s * s;
-}
-
 }  // namespace
 
 scalar limitedShifting::shift(particleCloud& cloud, const neighbourList& list,
@@ -183,6 +147,7 @@ scalar limitedShifting::shift(particleCloud& cloud, const neighbourList& list,
         }
     });
     if (cloud.surface.empty()) balance(cloud, v);
+    // b t^2 + a t <= allowance
     scalar a = 0, b = 0;
     for (label k = 0; k < nFluid; ++k)
         a += cloud.Up[first + k].xyz().dot(v[k]), b += 0.5 * v[k].squaredNorm();
@@ -191,10 +156,12 @@ scalar limitedShifting::shift(particleCloud& cloud, const neighbourList& list,
     const scalar t = a + b <= allowance ? 1
                      : a > 0            ? 2 * allowance / (a + root)
                                         : (root - a) / (2 * b);
-    for (label k = 0; k < nFluid; ++k) cloud.Up[first + k].s += t * vec4::from(v[k]).s;
-    const scalar gained = a * t + b * t * t;
-    for (label k = 0; k < nFluid; ++k) cloud.x[first + k].s += vec4::from(shifts[k]).s;
-    return gained;
+    for (label k = 0; k < nFluid; ++k)
+    {
+        cloud.x[first + k].s += vec4::from(shifts[k]).s;
+        cloud.Up[first + k].s += t * vec4::from(v[k]).s;
+    }
+    return a * t + b * t * t;
 }
 
 }  // namespace ispf

@@ -54,7 +54,8 @@ void viscousPairs::apply(const List<vec4>& phi, List<vec4>& result) const
 }
 
 // 2 K u_i.(u_i - u_j) is K |u_i - u_j|^2, the half of the pair, and K (u_i + u_j).(u_i - u_j), which the row of j or of its
-// image has with the other sign.  A wall has no row, and its image's has that of the wall's own motion
+// image has with the other sign, but for the wall's own motion.  A wall has no row.  In walls of mirrors that are curved the
+// images' friction is not mutual: what it lacks is in `walls`
 viscousPairs::power viscousPairs::powerOf(const List<vec4>& u) const
 {
     const particleCloud& cloud = *cloud_;
@@ -74,10 +75,7 @@ viscousPairs::power viscousPairs::powerOf(const List<vec4>& u) const
                 sum.dissipated += half, sum.faces += all - half;
             else if (owner < 0 || clamped) sum.dissipated += 2 * half, sum.walls += all - 2 * half;
             else if (cloud.phase[j] == phaseType::mirror)
-            {
-                const scalar wall = dot(e, cloud.ghostOffset(j).s);
-                sum.dissipated += all - wall, sum.walls += wall;
-            }
+                sum.dissipated += half, sum.walls += all - half;
             else sum.dissipated += half;
         }
     };
