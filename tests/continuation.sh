@@ -16,9 +16,11 @@ continued() { # template name
     solved
     grep -q "^Time = 0.13$" log && fail "$2: begins anew"
     same 0.26 "../$2/0.26" "$2: continued from half way"
-    local ledger=volumeLedger.dat
-    [ "$(tail -n 1 "../$2/postProcessing/volumeLedger/0/$ledger")" = \
-      "$(tail -n 1 postProcessing/volumeLedger/0.13/$ledger)" ] || fail "$2: another ledger"
+    local ledger
+    for ledger in volumeLedger energyLedger; do
+        [ "$(tail -n 1 "../$2/postProcessing/$ledger/0/$ledger.dat")" = \
+          "$(tail -n 1 "postProcessing/$ledger/0.13/$ledger.dat")" ] || fail "$2: another $ledger"
+    done
     seriesComplete "$2"
 }
 adjusted='setEntry system/controlDict writeControl adjustableRunTime
@@ -26,6 +28,9 @@ adjusted='setEntry system/controlDict writeControl adjustableRunTime
 explicitWall='setEntry system/sphSolution coupling projection; setEntry constant/structureProperties E 1000'
 continued piston fluidProjection
 continued piston fluidProjectionAdjusted "$adjusted"
+continued piston fluidSecondOrder 'echo "ddtScheme DLN;" >> system/sphSchemes'
+continued piston fluidSecondOrderMonolithic 'echo "ddtScheme DLN;" >> system/sphSchemes
+    setEntry system/sphSolution coupling monolithic'
 continued piston fluidMonolithic 'setEntry system/sphSolution coupling monolithic'
 continued membrane wallMonolithic
 continued membrane wallProjection "$explicitWall; $adjusted"
