@@ -116,7 +116,9 @@ for wrong in "setEntry dict n 1" "getEntry dict n" "getEntry nothing a" 'setEntr
     cmp -s before dict && grep -q "FATAL" "$scratch/out" || fail "$wrong: $(cat "$scratch/out")"
 done
 says "would break"
-(mv "$scratch/bin/ispfDictionary" "$scratch/kept"; run 'getEntry dict a' && fail "no ispfDictionary"; says "ispfDictionary is not built"; mv "$scratch/kept" "$scratch/bin/ispfDictionary")
+mv "$scratch/bin/ispfDictionary" "$scratch/kept"
+PATH=$scratch/bin:/usr/bin:/bin run 'getEntry dict a' && fail "no ispfDictionary"; says "ispfDictionary is not built"
+mv "$scratch/kept" "$scratch/bin/ispfDictionary"
 cd ..; rm -r entries
 
 run 'restore0Dir; touch 0/extra; restore0Dir' && [ "$(ls 0)" = U ] || fail "restore0Dir"

@@ -83,7 +83,7 @@ void adjointRows::gradient(const List<vec4>& phi, List<vec4>& gp) const
     solidGradient(phi, gp);
 }
 
-// What the constraint's pressure and the fluid's load make of {.., p}
+// gp of the solid's rows: the forces of the constraint's pressure and of the fluid's load, per volume, for phi = {.., p}
 void adjointRows::solidGradient(const List<vec4>& phi, List<vec4>& gp) const
 {
     if (!volume_) return;

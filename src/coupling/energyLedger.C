@@ -74,7 +74,7 @@ std::array<scalar, energyLedger::nStores> energyLedger::energies() const
     return {kineticNow(), c_.structure ? c_.structure->energy(cloud.x) : 0, mass * heights};
 }
 
-// What has changed since the last step's end has come with particles that were exchanged, or with a force that changes
+// Energies have changed since the last step's end if particles were exchanged, or if a force has changed
 void energyLedger::begin()
 {
     if (!on_) return;

@@ -43,7 +43,7 @@ struct alignas(32) columns  // of a matrix
     }
 };
 
-// What the loops over pairs see
+// The arrays that the loops over pairs read
 struct view
 {
     const std::int64_t* start;
