@@ -165,24 +165,21 @@ void adjointStep::bookMomentum(particleCloud& cloud, const List<vec4>& gp, scala
     sticks_.resize(cloud.nAll());
     cloud.fillGhosts(sticks_, false);
     viscous_.apply(sticks_, lap);
-    const viscousPairs::power friction = viscous_.powerOf(sticks_);
     scalar crossed = 0, forced = 0, left = 0;
     for (label i = 0; i < cloud.n(); ++i)
     {
-        if (!energy.counts(i)) continue;
+        if (!cloud.isFree(i)) continue;
         const vector u = cloud.Up[i].xyz(), gained = u - before_[i].xyz();
         const vector viscous = -2 * dt * nu_ * lap[i].xyz(), a = dt * added_[i].xyz();
         forced += u.dot(a);
         crossed += (u - sticks_[i].xyz()).dot(viscous);
         left += u.dot(gained + dt / rho_ * gp[i].xyz() - a - viscous);
     }
-    const scalar m = rho_ * cloud.volume(), rubs = m * dt * nu_;
+    const scalar m = rho_ * cloud.volume();
+    energy.bookFriction(viscous_.powerOf(sticks_), m * dt * nu_);
     energy[energyLedger::step] += m * crossed;
     energy[energyLedger::forces] += m * forced;
     energy[energyLedger::solver] += m * left;
-    energy[energyLedger::viscosity] += rubs * friction.dissipated;
-    energy[energyLedger::walls] += rubs * friction.walls;
-    energy[energyLedger::faces] += rubs * friction.faces;
 }
 
 // (6.11) and (6.6): what p does, row by row of continuity
@@ -198,22 +195,10 @@ void adjointStep::bookPressure(particleCloud& cloud, List<vec4>& gp, scalar dt,
     const List<scalar> div = divergence(cloud), &all = pair_.wallFlux(), &faces = pair_.faceFlux();
     for (label i = 0; i < cloud.n(); ++i)
     {
-        const scalar work = dt * cloud.volume() * cloud.Up[i][3];
-        const scalar S = dt / rho_ * (direct[i] - damps[i]), row = div[i] + S;
+        const scalar S = dt / rho_ * (direct[i] - damps[i]);
         const scalar face = faces.empty() ? 0 : faces[i];
-        energy[energyLedger::stabiliser] -= work * S;
-        energy[energyLedger::walls] -= work * (all[i] - face);
-        energy[energyLedger::faces] -= work * face;
-        if (cloud.pHeld(i)) energy[energyLedger::faces] += work * row;
-        else
-        {
-            energy[energyLedger::sources] += work * source_[i];
-            const scalar left = dt * cloud.volume() * (row - source_[i]);
-            energy.bookResidual((cloud.Up[i][3] - level) * left, level * left);
-        }
-        if (!energy.counts(i))
-            energy[cloud.isFluid(i) ? energyLedger::faces : energyLedger::walls] +=
-                dt * cloud.volume() * cloud.Up[i].xyz().dot(gp[i].xyz());
+        energy.bookRow(i, {cloud.Up[i][3], S, div[i] + S, source_[i], all[i], face, gp[i].xyz()},
+                       level, dt);
     }
 }
 

@@ -121,7 +121,7 @@ void adjointSystem::bookMomentum(const List<vec4>& before, const List<vec4>& spr
     scalar forced = 0, left = 0;
     for (label i = 0; i < cloud.n(); ++i)
     {
-        if (!energy.counts(i)) continue;
+        if (!cloud.isFree(i)) continue;
         const vector u = phi_[i].xyz(), gained = u - before[i].xyz();
         vector force = vector::Zero();
         if (!c_.bodyForce.empty())
@@ -133,13 +133,9 @@ void adjointSystem::bookMomentum(const List<vec4>& before, const List<vec4>& spr
         forced += dt_ * u.dot(force);
         left += u.dot(m * gained + dt_ * rest);
     }
-    const viscousPairs::power friction = rows_.viscous().powerOf(phi_);
-    const scalar rubs = dt_ * c_.mu * V;
+    energy.bookFriction(rows_.viscous().powerOf(phi_), dt_ * c_.mu * V);
     energy[energyLedger::forces] += forced;
     energy[energyLedger::solver] += left;
-    energy[energyLedger::viscosity] += rubs * friction.dissipated;
-    energy[energyLedger::walls] += rubs * friction.walls;
-    energy[energyLedger::faces] += rubs * friction.faces;
     energy.bookSprings(spring, dt_);
 }
 
@@ -159,22 +155,10 @@ void adjointSystem::bookPressure(const List<vec4>& before, scalar theta, const L
     const List<scalar>&all = rows_.pair().wallFlux(), &faces = rows_.pair().faceFlux();
     for (label i = 0; i < cloud.n(); ++i)
     {
-        const scalar work = dt_ * cloud.volume() * phi_[i][3];
-        const scalar face = faces.empty() ? 0 : faces[i], row = rows[i] + all[i];
-        energy[energyLedger::stabiliser] += work * (div[i] - rows[i]);
-        energy[energyLedger::walls] -= work * (all[i] - face);
-        energy[energyLedger::faces] -= work * face;
-        if (cloud.pHeld(i)) energy[energyLedger::faces] += work * row;
-        else
-        {
-            energy[energyLedger::sources] += work * q[i];
-            const scalar left = dt_ * cloud.volume() * (row - q[i]);
-            energy.bookResidual((phi_[i][3] - level) * left, level * left);
-        }
-        if (energy.counts(i)) continue;
+        const scalar face = faces.empty() ? 0 : faces[i];
         const vector g = gp_[i].xyz() - (drop.empty() ? vector(vector::Zero()) : drop[i].xyz());
-        energy[cloud.isFluid(i) ? energyLedger::faces : energyLedger::walls] +=
-            dt_ * cloud.volume() * phi_[i].xyz().dot(g);
+        energy.bookRow(i, {phi_[i][3], rows[i] - div[i], rows[i] + all[i], q[i], all[i], face, g},
+                       level, dt_);
     }
 }
 

@@ -59,7 +59,7 @@ scalar energyLedger::kineticNow() const
     return 0.5 * c_.rho * cloud.volume() * parallelSum(cloud.n(), [&](label begin, label end) {
                scalar sum = 0;
                for (label i = begin; i < end; ++i)
-                   if (counts(i)) sum += cloud.Up[i].xyz().squaredNorm();
+                   if (c_.cloud.isFree(i)) sum += cloud.Up[i].xyz().squaredNorm();
                return sum;
            });
 }
@@ -70,7 +70,7 @@ std::array<scalar, energyLedger::nStores> energyLedger::energies() const
     const scalar mass = c_.rho * cloud.volume();
     scalar heights = 0;
     for (label i = 0; i < cloud.n() && !c_.bodyForce.empty(); ++i)
-        if (counts(i)) heights -= c_.bodyForce[cloud.zone[i]].dot(cloud.x[i].xyz());
+        if (c_.cloud.isFree(i)) heights -= c_.bodyForce[cloud.zone[i]].dot(cloud.x[i].xyz());
     return {kineticNow(), c_.structure ? c_.structure->energy(cloud.x) : 0, mass * heights};
 }
 
@@ -94,15 +94,40 @@ scalar energyLedger::level(const List<vec4>& up) const
     scalar sum = 0;
     label n = 0;
     for (label i = c_.cloud.nSolid(); i < c_.cloud.n(); ++i)
-        if (counts(i)) sum += up[i][3], ++n;
+        if (c_.cloud.isFree(i)) sum += up[i][3], ++n;
     return n > 0 ? sum / n : 0;
+}
+
+void energyLedger::bookFriction(const viscousPairs::power& friction, scalar factor)
+{
+    terms_[viscosity] += factor * friction.dissipated;
+    terms_[walls] += factor * friction.walls, terms_[faces] += factor * friction.faces;
+}
+
+// The solver has left the rest of a row that is solved, against p less its mean.  The mean times the volume that is missed has
+// passed the boundary
+void energyLedger::bookRow(label i, const continuityRow& r, scalar level, scalar dt)
+{
+    const particleCloud& cloud = c_.cloud;
+    const scalar volume = dt * cloud.volume(), work = volume * r.p;
+    terms_[stabiliser] -= work * r.stabiliser;
+    terms_[walls] -= work * (r.wallFlux - r.faceFlux), terms_[faces] -= work * r.faceFlux;
+    if (cloud.pHeld(i)) terms_[faces] += work * r.row;
+    else
+    {
+        const scalar left = volume * (r.row - r.source);
+        terms_[sources] += work * r.source, terms_[solver] += (r.p - level) * left;
+        terms_[c_.walls->hasOpen() ? faces : walls] += level * left;
+    }
+    if (!cloud.isFree(i))
+        terms_[cloud.isFluid(i) ? faces : walls] += volume * cloud.Up[i].xyz().dot(r.gradient);
 }
 
 scalar energyLedger::bookSprings(const List<vec4>& f, scalar dt)
 {
     scalar free = 0, clamped = 0;
     for (label i = 0; i < label(f.size()); ++i)
-        (counts(i) ? free : clamped) += dt * f[i].xyz().dot(c_.cloud.Up[i].xyz());
+        (c_.cloud.isFree(i) ? free : clamped) += dt * f[i].xyz().dot(c_.cloud.Up[i].xyz());
     terms_[step] += free + clamped, terms_[walls] -= clamped;
     return free;
 }

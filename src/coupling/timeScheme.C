@@ -20,12 +20,6 @@ const vec4* fieldOf(const particleCloud& cloud, const word& name)
     return found == cloud.vectors.end() ? nullptr : found->second.data();
 }
 
-// Not where the velocity is given, nor in strips: those are reservoirs
-bool isFree(const particleCloud& cloud, label i)
-{
-    return !cloud.uFixed[i] && !cloud.pFixed[i];
-}
-
 }  // namespace
 
 timeScheme::timeScheme(const fsiCase& c)
@@ -84,8 +78,7 @@ void timeScheme::begin(particleCloud& cloud)
     const vec4* before = fieldOf(cloud, levelBefore);
     const scalar ofNow = b1_ - b2_ / a2_ * a1_, ofBefore = b0_ - b2_ / a2_ * a0_;
     for (label i = 0; i < n; ++i)
-        if (isFree(cloud, i))
-            cloud.Up[i].setXyz(ofNow * now_[i].xyz() + ofBefore * before[i].xyz());
+        if (cloud.isFree(i)) cloud.Up[i].setXyz(ofNow * now_[i].xyz() + ofBefore * before[i].xyz());
 }
 
 void timeScheme::end(particleCloud& cloud, energyLedger& energy)
@@ -100,14 +93,14 @@ void timeScheme::end(particleCloud& cloud, energyLedger& energy)
         way.resize(n, vec4{});
         const scalar ofStep = tau_ * weight() / (a2_ * dt_), ofLast = a0_ * before_ / (a2_ * dt_);
         for (label i = 0; i < n; ++i)
-            way[i] = vec4::from(isFree(cloud, i) && second
+            way[i] = vec4::from(cloud.isFree(i) && second
                                     ? vector(ofStep * cloud.Up[i].xyz() + ofLast * way[i].xyz())
                                     : cloud.Up[i].xyz());
     }
     scalar taken = 0, gained = 0;
     for (label i = 0; i < n; ++i)
     {
-        if (!isFree(cloud, i)) continue;
+        if (!cloud.isFree(i)) continue;
         const vector un = now_[i].xyz(), u0 = second ? before[i].xyz() : un;
         const vector u = (cloud.Up[i].xyz() - b1_ * un - b0_ * u0) / b2_;
         cloud.Up[i].setXyz(u);

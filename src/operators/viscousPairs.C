@@ -83,7 +83,7 @@ viscousPairs::power viscousPairs::powerOf(const List<vec4>& u) const
         return parallelSum(cloud.n(), [&](label begin, label end) {
             power sum;
             for (label i = begin; i < end; ++i)
-                if (!cloud.uFixed[i] && !cloud.pFixed[i]) row(i, sum);
+                if (cloud.isFree(i)) row(i, sum);
             return sum.*which;
         });
     };

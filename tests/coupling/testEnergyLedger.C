@@ -148,10 +148,14 @@ TEST_CASE("a step in which particles would pass each other is halved, with eithe
     {
         CAPTURE(coupling);
         boxCase box;
-        box.patch = {still, still, still, "type wall; velocity (1 0 0);"}, box.coupling = coupling;
+        box.patch = {"type cyclic;", "", still, still}, box.coupling = coupling;
+        box.velocity = {0.5, 0, 0};
         runningBox run(box);
-        run.run(2e-3, 1);  // two spacings of the lid, whose next row follows it
+        run.run(2e-3, 1);  // a spacing; two steps of half of one are taken
         CHECK(run.time.value() == relative(2e-3, 1e-12));
-        for (label i = 0; i < run.c.cloud.n(); ++i) CHECK(run.c.cloud.Up[i].xyz().norm() < 1);
+        const word kept = coupling == "projection" ? "projectedStep" : "Up_0";
+        CHECK(run.c.cloud.history.at(kept).at(0) == relative(1e-3, 1e-12));
+        run.run(1e-3, 1);
+        CHECK(run.c.cloud.history.at(kept).at(0) == relative(1e-3, 1e-12));
     }
 }
