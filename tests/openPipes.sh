@@ -7,8 +7,6 @@ set -uo pipefail
 cd "$scratch" || exit 1
 mkdir system constant
 echo "coupling monolithic;" > system/sphSolution
-# the corrected pair and its densityFeedback; the adjoint pair, without any, is run in the first pipe alone: it loses more in narrower ones
-echo "pair corrected;" > system/sphSchemes
 
 # oscillate name depth period amplitude [most]: depth is that beyond the faces over dx, for awk; five periods, after
 # which the volume may differ by `most` percent
@@ -48,9 +46,7 @@ echo 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 18, 6};' > consta
 echo "coupling monolithic; densityFeedback 0;" > system/sphSolution
 oscillate "flat, without densityFeedback" "z - 18" 0.5 5 1.5
 echo "coupling monolithic;" > system/sphSolution
-echo "pair adjoint;" > system/sphSchemes
 oscillate "flat, adjoint pair" "z - 18" 0.5 5 1.2
-echo "pair corrected;" > system/sphSchemes
 lid "-7e-3 -7e-3 17.9e-3" "7e-3 7e-3 18.1e-3" "stripLayers 4;"
 oscillate "flat, stripLayers 4" "z - 18" 0.5 5
 awk '!/^#/ { exit !($4*$4 < 1e-16) }' postProcessing/volumeLedger/0/volumeLedger.dat ||
@@ -86,7 +82,6 @@ grep "^particles: " log | awk '{ gsub(",", ""); now = $2; if (NR == 1) first = n
           exit !((now - first)^2 <= 4 && $11 + 0 == 0) }' || fail "a piston along an open face: $(grep '^particles: ' log | tail -n 1)"
 
 # a flow rate into an oblique pipe of 12 dx: Poiseuille's flow, all the way and at once
-echo "pair adjoint;" > system/sphSchemes
 rm -rf 0 0.* [1-9]* postProcessing
 echo "dx 1e-3; zones { water { phase fluid; shape cylinder; point1 (0 0 0); point2 (10e-3 0 15e-3); radius 6e-3; } }
     patches { in { box ((-6e-3 -7e-3 -6e-3) (6e-3 7e-3 5e-3)); } out { box ((5e-3 -7e-3 10e-3) (16e-3 7e-3 19e-3)); } }" > system/particleDict

@@ -46,6 +46,11 @@ void boundary::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
     cloud.entering.assign(content_->openFaces.size() + 1, std::numeric_limits<scalar>::quiet_NaN());
     label number = 0;
     for (const openFace& face : content_->openFaces) face.setFlags(cloud, rho, bodyForce, ++number);
+    cloud.strip.assign(cloud.n(), 0), cloud.stripArea.assign(1, vector::Zero());
+    for (const openFace& face : content_->openFaces)
+        face.setStrip(cloud, [&](const vector& x, scalar distance) {
+            return content_->walls.movingWithin(x, distance);
+        });
 }
 
 void boundary::clampSolids(particleCloud& cloud, const List<vec4>& x0, const dictionary& patches)
@@ -99,7 +104,7 @@ void boundary::updateGhosts(particleCloud& cloud) const
 {
     cloud.clearGhosts();
     content_->walls.addRigid(cloud);
-    if (cloud.wallsApart) content_->walls.addSurface(cloud);
+    content_->walls.addSurface(cloud);
     content_->facing.assign(cloud.nGhosts(), vector::Zero());
     content_->mirror.addImages(cloud, content_->walls, content_->facing);
     content_->group.addImages(cloud, content_->facing);

@@ -93,10 +93,13 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
                                  "). The strip beyond the surface must be full at the start",
                              where_);
         const std::uint8_t zone = cloud.zone[cloud.nSolid() + nearest];
+        const auto area = areas_.try_emplace(zone, vector::Zero()).first;
+        area->second += cloud.volume() / depth_ * feet[k].normal;
         // sites of the outermost layer give way to places at the outer end
         if (feet[k].depth < depth_ - 0.75 * dx_) addSpot(kept[k], feet[k], zone, full);
         addOuterSpots(feet[k], zone, cloud.nDims, {full, taken, allowed});
     }
+    if (areas_.size() == 1 && !mesh_.empty()) areas_.begin()->second = mesh_.areaVector();
 }
 
 // A solid that holds the fluid before the face has to hold that in the strip, too

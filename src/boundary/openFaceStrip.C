@@ -84,6 +84,20 @@ void openFace::setVelocity(particleCloud& cloud, label number) const
     for (const scalar q : givenFlux(cloud)) flux_ -= q;
 }
 
+void openFace::setStrip(particleCloud& cloud, const place& moves) const
+{
+    const label first = label(cloud.stripArea.size());
+    const auto isMoving = [&](const sample& s) { return moves(s.foot, 2 * dx_); };
+    const bool varies = std::any_of(samples_.begin(), samples_.end(), isMoving);
+    for (const auto& [zone, area] : areas_)
+        cloud.stripArea.push_back(
+            varies ? vector::Constant(std::numeric_limits<scalar>::quiet_NaN()) : area);
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (const surfaceFoot& f = known_[i].foot; f.found && f.depth > 0)
+            if (const auto found = areas_.find(cloud.zone[i]); found != areas_.end())
+                cloud.strip[i] = first + label(std::distance(areas_.begin(), found));
+}
+
 // Without fluid beyond the face nothing would enter or leave, and no one would be told
 void openFace::checkFilled(const particleCloud& cloud) const
 {
@@ -268,8 +282,7 @@ void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, sc
         velocity.emplace(*this, cloud, [&](label i) { return cloud.Up[i].xyz(); });
         flux_ = fluxOf(cloud, *velocity);
     }
-    else if (cloud.wallsApart)
-        pressure.emplace(*this, cloud, [&](label i) { return vector(cloud.Up[i][3], 0, 0); });
+    else pressure.emplace(*this, cloud, [&](label i) { return vector(cloud.Up[i][3], 0, 0); });
     const slopeBefore slope(*this, cloud, friction, rho, dt);
     List<scalar>& carried = cloud.scalars.at(slopeField);
     parallelFor(

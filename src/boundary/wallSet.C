@@ -35,7 +35,7 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
     for (wall& w : walls_)
         std::erase_if(w.rigid, [&](const vector& x) { return group.beyond(x) > 1e-6 * cloud.dx; });
     findFeet();
-    if (cloud.wallsApart) makeElements(cloud);
+    makeElements(cloud);
     cover(cloud);
 }
 
@@ -484,7 +484,7 @@ void wallSet::cover(const particleCloud& cloud)
 // The region depends on where particles are now, not on where they have been: a restart finds the same elements
 void wallSet::coverPlanes(const particleCloud& cloud)
 {
-    if (!cloud.wallsApart || cloud.n() == 0 ||
+    if (cloud.n() == 0 ||
         std::none_of(walls_.begin(), walls_.end(), [](const wall& w) { return w.plane; }))
         return;
     boundBox box;

@@ -6,17 +6,13 @@
 namespace ispf
 {
 
-std::unique_ptr<coupledSystem> coupledSystem::New(fsiCase& c)
-{
-    return c.cloud.wallsApart ? newAdjointSystem(c) : newMonolithicSystem(c);
-}
-
 void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solidSurface* surface,
                           const blockMatrix3* K)
 {
     const particleCloud& cloud = c_.cloud;
     dt_ = dt, K_ = K;
-    const List<scalar>& viscous = setupRows(volume, surface);
+    rows_.setup(c_.cloud, c_.list, c_.correction, *c_.kernel, volume, surface);
+    const List<scalar>& viscous = rows_.viscous().sum();
     const scalar inertia = c_.rho * cloud.volume() / dt;
     // clamped particles carry no tangent among themselves: they weigh as the mean free one does
     scalar meanTangent = 0;
@@ -35,8 +31,8 @@ void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solid
     }
     fluidTau_ = std::accumulate(tau_.begin() + cloud.nSolid(), tau_.end(), scalar(0)) /
                 scalar(cloud.n() - cloud.nSolid());
-    setTau(fluidTau_);
-    enclosed_.setup([this](const List<vec4>& phi, List<vec4>& gp) { solidGradient(phi, gp); },
+    rows_.setTau(tau_, fluidTau_);
+    enclosed_.setup([this](const List<vec4>& phi, List<vec4>& gp) { rows_.solidGradient(phi, gp); },
                     surface);
 }
 
@@ -95,6 +91,81 @@ void coupledSystem::writeRows(const List<vec4>& phi, const List<vec4>& lap, cons
         }
     });
     enclosed_.balance(y);
+}
+
+// {G p, p} of the fluid, {0, p} of the solid, ghosts filled
+void coupledSystem::stabiliserGradient(const List<vec4>& gp, List<vec4>& gs) const
+{
+    const particleCloud& cloud = c_.cloud;
+    gs.resize(cloud.nAll());
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        gs[i] = cloud.isFluid(i) ? gp[i] : vec4{};
+        gs[i][3] = phi_[i][3];
+    }
+    cloud.fillGradientGhosts(gs);
+}
+
+// G p of the pressure drops alone over cyclic patches, empty without
+List<vec4> coupledSystem::gradientOfDrops() const
+{
+    List<vec4> drop;
+    if (pressureOffsets().empty()) return drop;
+    phi_.assign(c_.cloud.nAll(), vec4{});
+    c_.cloud.fillGhosts(phi_, false);
+    rows_.gradient(phi_, drop);
+    return drop;
+}
+
+// The memory of the solid's stabiliser
+void coupledSystem::addSolidMemory(const List<vec4>& before, scalar theta, List<scalar>& rows) const
+{
+    const particleCloud& cloud = c_.cloud;
+    if (cloud.nSolid() == 0) return;
+    gs_.assign(cloud.nAll(), vec4{});
+    for (label i = 0; i < cloud.nSolid(); ++i) gs_[i][3] = theta * before[i][3];
+    cloud.fillGradientGhosts(gs_);
+    rows_.solidStabiliser(gs_, cp_);
+    for (label i = 0; i < cloud.nSolid(); ++i) rows[i] += cp_[i];
+}
+
+void coupledSystem::rightHandSide(scalar theta, const List<vec4>& springForce,
+                                  const List<scalar>& q, List<scalar>& b) const
+{
+    const particleCloud& cloud = c_.cloud;
+    // u = p = 0 with the boundary's values: what the rows give now belongs on the right
+    phi_.assign(cloud.nAll(), vec4{});
+    cloud.fillGhosts(phi_, false);
+    rows_.viscous().apply(phi_, lap_);
+    List<scalar> known(rows_.pair().wallFlux());
+    const List<vec4> drop = gradientOfDrops();
+    if (!drop.empty())
+    {
+        stabiliserGradient(drop, gs_);
+        for (const auto& [g, offset] : pressureOffsets()) gs_[g][3] += offset;
+        const List<vec4> none(cloud.nAll());
+        rows_.continuity(none, gs_, cp_);
+        for (label i = cloud.nSolid(); i < cloud.n(); ++i) known[i] += cp_[i];
+    }
+    addSolidMemory(cloud.Up, theta, known);
+    momentumSide(springForce, lap_, drop, b);
+    for (label i = 0; i < cloud.n(); ++i)
+        if (!cloud.pHeld(i)) b[4 * i + 3] = cloud.dx * (q[i] - known[i]);
+    enclosed_.balance(b);
+}
+
+void coupledSystem::apply(const List<scalar>& x, List<scalar>& y) const
+{
+    const particleCloud& cloud = c_.cloud;
+    phi_.resize(cloud.nAll());
+    std::copy(x.begin(), x.end(), reinterpret_cast<scalar*>(phi_.data()));
+    enclosed_.dropLevel(phi_);
+    cloud.fillGhosts(phi_, true);
+    rows_.gradient(phi_, gp_);
+    rows_.viscous().apply(phi_, lap_);
+    stabiliserGradient(gp_, gs_);
+    rows_.continuity(phi_, gs_, cp_);
+    writeRows(phi_, lap_, gp_, cp_, y);
 }
 
 }  // namespace ispf

@@ -17,6 +17,8 @@ constexpr int mostHalvings = 4;
 constexpr scalar farthest = 0.6;
 // Share of the energies at hand that a step may gain from nothing
 constexpr scalar mostGained = 0.05;
+// Way of the fastest particle in one step [dx] below which what is gained is rounding
+constexpr scalar atRest = 1e-9;
 
 }  // namespace
 
@@ -77,8 +79,17 @@ word couplingScheme::tooFar(scalar dt) const
     return "";
 }
 
-word couplingScheme::gains() const
+void couplingScheme::shift(const particleShifting& shifting, scalar dt)
 {
+    energy_.shifts([&] {
+        shifting.shift(c_.cloud, c_.list, c_.correction, dt, energy_.heated(),
+                       [&](label i) { return c_.walls->nearOpen(i); });
+    });
+}
+
+word couplingScheme::gains(scalar dt) const
+{
+    if (!(c_.cloud.maxSpeed() * dt > atRest * c_.cloud.dx)) return "";
     const auto [gained, of] = energy_.fromNothing();
     if (!(gained > mostGained * of)) return "";
     return "in it the flow gains " + str(gained, 3) + " J from nothing, " +

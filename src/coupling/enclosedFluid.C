@@ -96,7 +96,7 @@ void enclosedFluid::addDefect(List<scalar>& q)
     {
         if (bodyOf(i) < 0) continue;
         body& b = bodies_[bodyOf(i)];
-        const scalar V = cloud.volume() * s.expansion[cloud.zone[i]];
+        const scalar V = cloud.volume();
         b.volume += V, b.added += s.defect[cloud.zone[i]] * V, b.source += q[i] * V;
     }
     for (body& b : bodies_) b.added = b.free || !b.known ? 0 : b.added, b.source += b.added;
@@ -116,9 +116,6 @@ void enclosedFluid::account(particleCloud& cloud, scalar dt, const List<tensor>&
     {
         s.booked += b.added * dt;
         if (!b.free && b.known) expectNext(b, cofactor, s);
-        // adjointPair counts every particle with the volume that it was made with
-        for (const label z : b.zones)
-            if (!c_.source.empty() && !cloud.wallsApart) s.expansion[z] *= 1 + c_.source[z] * dt;
     }
     s.write(cloud);
 }
@@ -144,14 +141,14 @@ void enclosedFluid::expectNext(const body& b, const List<tensor>& cofactor, stat
 }
 
 enclosedFluid::state::state(const particleCloud& cloud)
-    : defect(cloud.zones.size(), 0), expansion(cloud.zones.size(), 1)
+    : defect(cloud.zones.size(), 0)
 {
     const auto found = cloud.history.find(divergenceDefect);
     const size_t nz = defect.size();
-    if (found == cloud.history.end() || found->second.size() != 2 * nz + 2) return;
+    if (found == cloud.history.end() || found->second.size() != nz + 2) return;
     const scalar* from = found->second.data();
-    std::copy_n(from, nz, defect.begin()), std::copy_n(from + nz, nz, expansion.begin());
-    largest = from[2 * nz], booked = from[2 * nz + 1];
+    std::copy_n(from, nz, defect.begin());
+    largest = from[nz], booked = from[nz + 1];
 }
 
 // The defects of this step come anew
@@ -165,7 +162,6 @@ void enclosedFluid::state::write(particleCloud& cloud) const
 {
     List<scalar>& to = cloud.history[divergenceDefect];
     to = defect;
-    to.insert(to.end(), expansion.begin(), expansion.end());
     to.push_back(largest), to.push_back(booked);
 }
 

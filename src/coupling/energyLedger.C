@@ -21,9 +21,8 @@ const std::array<word, energyLedger::nStores + energyLedger::nTerms + 1> energyL
     "kinetic",   "elastic", "potential",  "walls",    "faces",  "forces",  "sources",
     "viscosity", "step",    "stabiliser", "shifting", "solver", "leftOver"};
 
-energyLedger::energyLedger(fsiCase& c) : c_(c), on_(c.cloud.wallsApart)
+energyLedger::energyLedger(fsiCase& c) : c_(c)
 {
-    if (!on_) return;
     List<scalar>& sums = c.cloud.history[entry];
     if (sums.size() != titles.size())
     {
@@ -41,7 +40,6 @@ energyLedger::energyLedger(fsiCase& c) : c_(c), on_(c.cloud.wallsApart)
 
 List<scalar> energyLedger::sums(const fsiCase& c)
 {
-    if (!c.cloud.wallsApart) return {};
     const auto kept = c.cloud.history.find(entry);
     if (kept == c.cloud.history.end() || kept->second.size() != titles.size())
         return List<scalar>(titles.size() - nStores, 0);
@@ -77,7 +75,6 @@ std::array<scalar, energyLedger::nStores> energyLedger::energies() const
 // Energies have changed since the last step's end if particles were exchanged, or if a force has changed
 void energyLedger::begin()
 {
-    if (!on_) return;
     terms_ = {}, left_ = 0;
     begin_ = energies();
     last_ = begin_;
@@ -134,7 +131,6 @@ scalar energyLedger::bookSprings(const List<vec4>& f, scalar dt)
 
 void energyLedger::end()
 {
-    if (!on_) return;
     end_ = energies();
     terms_[step] += end_[elastic] - begin_[elastic];
     terms_[forces] += end_[potential] - begin_[potential];
@@ -145,7 +141,6 @@ void energyLedger::end()
 
 void energyLedger::book()
 {
-    if (!on_) return;
     List<scalar>& sums = state();
     std::copy(end_.begin(), end_.end(), sums.begin());
     for (int t = 0; t < nTerms; ++t) sums[nStores + t] += terms_[t];
@@ -154,7 +149,6 @@ void energyLedger::book()
 
 std::pair<scalar, scalar> energyLedger::fromNothing() const
 {
-    if (!on_) return {0, 0};
     scalar gained = left_, of = end_[kinetic] + begin_[kinetic];
     for (int t = viscosity; t < nTerms; ++t) gained += terms_[t];
     for (int t = 0; t < nTerms; ++t) of += std::abs(terms_[t]);
@@ -171,7 +165,6 @@ word energyLedger::largest() const
 
 void energyLedger::writeLine()
 {
-    if (!on_) return;
     const scalar whole = c_.walls->symmetryFactor();
     const List<scalar>& sums = state();
     file_->begin(c_.time.value());

@@ -1,19 +1,259 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fractionalStep.H"
-#include "adjointStep.H"
-#include "projectionStep.H"
-#include "timeScheme.H"
+
+#include "worstRow.H"
+
+#include <ostream>
 
 namespace ispf
 {
 
-std::unique_ptr<fractionalStep> fractionalStep::New(const fsiCase& c, const word& viscosity)
+namespace
 {
-    if (c.cloud.wallsApart)
-        return std::make_unique<adjointStep>(c.rho, c.mu, viscosity, c.solution,
-                                             timeScheme(c).secondOrder());
-    return std::make_unique<projectionStep>(c.rho, c.mu, viscosity,
-                                            operatorSchemes::fromDict(c.schemes), c.solution);
+
+const char* const defaultPressureSolver =
+    "solver PCG; preconditioner multigrid; tolerance 1e-6; relTol 0; maxIter 200;";
+
+scalar maxSpeed(const particleCloud& cloud)
+{
+    return std::sqrt(maxOf(cloud.nAll(), [&](label begin, label end) {
+        scalar m = 0;
+        for (label i = begin; i < end; ++i) m = std::max(m, cloud.Up[i].xyz().squaredNorm());
+        return m;
+    }));
+}
+
+List<vector> points(const particleCloud& cloud)
+{
+    List<vector> x(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i) x[i] = cloud.x[i].xyz();
+    return x;
+}
+
+}  // namespace
+
+fractionalStep::fractionalStep(scalar rho, scalar mu, const word& viscosity, const dictionary& solution,
+                         bool wellStarted)
+    : rho_(rho), nu_(mu / rho)
+{
+    const scalar reflection =
+        solution.subOrEmptyDict("projection").getInRangeOrDefault("reflection", 0, 1, 0);
+    leaves_ = reflection / (1 + reflection);
+    leavesAtFirst_ = wellStarted ? 1 : leaves_;
+    pair_.setTolerance(closureTolerance(solution));
+    const dictionary solvers = solution.subOrEmptyDict("solvers");
+    const dictionary p = solvers.subOrEmptyDict("p");
+    pressureSolver_ = linearSolver::New(
+        "p", p.empty() ? dictionary::fromString(defaultPressureSolver, "default of solvers.p") : p);
+    if (viscosity == "implicit")
+        implicit_ = std::make_unique<projectionViscosity>(solvers.subOrEmptyDict("U"));
+}
+
+void fractionalStep::setup(particleCloud& cloud, const stencil& s, const smoothingKernel& kernel)
+{
+    pair_.setup(cloud, s.list, kernel, medium::all(cloud, s.list, s.B));
+    viscous_.setup(s);
+    sphm::laplacian(s, compact_);
+    operator_.setup(cloud, s.list, pair_, compact_);
+}
+
+// dt/rho G p; nothing where the velocity is prescribed
+List<vec4> fractionalStep::corrected(const particleCloud& cloud, scalar dt) const
+{
+    List<scalar> p(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i) p[i] = cloud.Up[i][3];
+    List<vec4> change;
+    operator_.gradient(p, change);
+    const simd4 part = {dt / rho_, dt / rho_, dt / rho_, 0};
+    for (label i = 0; i < cloud.n(); ++i) change[i].s *= cloud.uFixed[i] ? simd4{} : part;
+    change.resize(cloud.n());
+    return change;
+}
+
+void fractionalStep::predict(particleCloud& cloud, const stencil&, const List<vec4>& a, scalar dt)
+{
+    const simd4 velocity = {dt, dt, dt, 0};
+    first_ = !(behind(cloud) > 0);
+    added_ = a, before_.assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
+    if (implicit_)
+    {
+        // the p that a case starts from is a guess
+        List<vec4> change(cloud.n(), vec4{});
+        if (!first_) change = corrected(cloud, dt);
+        List<vec4> dtA(a);
+        for (label i = 0; i < cloud.n(); ++i) dtA[i].s = velocity * a[i].s - change[i].s;
+        projectionViscosity::laplacian lap;
+        lap.of = [&](const List<vec4>& u, List<vec4>& result) {
+            viscous_.apply(u, result);
+            for (vec4& v : result) v.s *= -2;
+        };
+        lap.diagonal = viscous_.sum();
+        for (scalar& d : lap.diagonal) d *= 2;
+        implicit_->solve(cloud, lap, dtA, dt * nu_);
+        sticks_.assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
+        for (label i = 0; i < cloud.n(); ++i) cloud.Up[i].s += change[i].s;
+        return;
+    }
+    sticks_ = before_;
+    cloud.fillGhosts(cloud.Up, false);
+    List<vec4> lap;
+    viscous_.apply(cloud.Up, lap);
+    parallelFor(cloud.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            if (!cloud.uFixed[i]) cloud.Up[i].s += velocity * (a[i].s - 2 * nu_ * lap[i].s);
+    });
+}
+
+// Residual of the pressure equation when the divergence is round-off: fluid at rest, a flow that is
+// free of divergence on a lattice
+scalar fractionalStep::floor(const particleCloud& cloud, scalar dt) const
+{
+    return 1e-9 * rho_ / dt * maxSpeed(cloud) / cloud.dx * std::sqrt(scalar(cloud.n()));
+}
+
+List<scalar> fractionalStep::divergence(particleCloud& cloud) const
+{
+    cloud.fillGhosts(cloud.Up, false);
+    List<scalar> div(cloud.n(), 0);
+    pair_.divergence(cloud.Up, div);
+    const List<scalar>& walls = pair_.wallFlux();
+    for (label i = 0; i < cloud.n(); ++i) div[i] += walls[i];
+    return div;
+}
+
+void fractionalStep::project(particleCloud& cloud, const stencil& s, const List<scalar>& q,
+                          scalar cellSize, scalar dt)
+{
+    const label n = cloud.n();
+    f_ = divergence(cloud), source_ = q;
+    source_.resize(n, 0);
+    loses_ = leaves() > 0 || first_ ? sphc::gradSquaredTrace(s, cloud.Up) : List<scalar>();
+    for (label i = 0; i < n; ++i)
+    {
+        if (leaves() > 0 && !cloud.uFixed[i]) source_[i] += dt * leaves() * loses_[i];
+        f_[i] = -rho_ / dt * (f_[i] - source_[i]);
+    }
+    if (first_) startPressure(cloud);
+    solvePressure(cloud, f_, cellSize, dt);
+    correct(cloud, dt);
+    cloud.history[projected] = {dt};
+}
+
+// No way lies before the first step: the p that it leaves has the rest of s as well
+void fractionalStep::settle(particleCloud& cloud, scalar cellSize, scalar dt)
+{
+    if (!first_ || leaves() == 1) return;
+    for (label i = 0; i < cloud.n(); ++i)
+        if (!cloud.uFixed[i]) f_[i] += (1 - leaves()) * rho_ * loses_[i];
+    solvePressure(cloud, f_, cellSize, dt);
+}
+
+void fractionalStep::book(particleCloud& cloud, scalar dt, energyLedger& energy)
+{
+    List<scalar> p(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i) p[i] = cloud.Up[i][3];
+    List<vec4> gp;
+    operator_.gradient(p, gp);
+    bookMomentum(cloud, gp, dt, energy);
+    bookPressure(cloud, gp, dt, energy);
+}
+
+// (6.10) and (6.12), over the rows that the ledger counts, without the step's first line
+void fractionalStep::bookMomentum(particleCloud& cloud, const List<vec4>& gp, scalar dt,
+                               energyLedger& energy)
+{
+    List<vec4> lap;
+    sticks_.resize(cloud.nAll());
+    cloud.fillGhosts(sticks_, false);
+    viscous_.apply(sticks_, lap);
+    scalar crossed = 0, forced = 0, left = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        if (!cloud.isFree(i)) continue;
+        const vector u = cloud.Up[i].xyz(), gained = u - before_[i].xyz();
+        const vector viscous = -2 * dt * nu_ * lap[i].xyz(), a = dt * added_[i].xyz();
+        forced += u.dot(a);
+        crossed += (u - sticks_[i].xyz()).dot(viscous);
+        left += u.dot(gained + dt / rho_ * gp[i].xyz() - a - viscous);
+    }
+    const scalar m = rho_ * cloud.volume();
+    energy.bookFriction(viscous_.powerOf(sticks_), m * dt * nu_);
+    energy[energyLedger::step] += m * crossed;
+    energy[energyLedger::forces] += m * forced;
+    energy[energyLedger::solver] += m * left;
+}
+
+// (6.11) and (6.6): what p does, row by row of continuity
+void fractionalStep::bookPressure(particleCloud& cloud, List<vec4>& gp, scalar dt,
+                               energyLedger& energy)
+{
+    List<vec4> m(cloud.nAll());
+    List<scalar> damps(cloud.n()), direct(cloud.n(), 0);
+    pair_.remainder(gp, m, direct);
+    cloud.fillGradientGhosts(m);
+    pair_.divergence(m, damps);
+    const scalar level = energy.level(cloud.Up);
+    const List<scalar> div = divergence(cloud), &all = pair_.wallFlux(), &faces = pair_.faceFlux();
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        const scalar S = dt / rho_ * (direct[i] - damps[i]);
+        const scalar face = faces.empty() ? 0 : faces[i];
+        energy.bookRow(i, {cloud.Up[i][3], S, div[i] + S, source_[i], all[i], face, gp[i].xyz()},
+                       level, dt);
+    }
+}
+
+void fractionalStep::correct(particleCloud& cloud, scalar dt) const
+{
+    const List<vec4> change = corrected(cloud, dt);
+    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i].s -= change[i].s;
+}
+
+// Mean of what is given, 0 if nothing is
+scalar fractionalStep::givenLevel(const particleCloud& cloud) const
+{
+    scalar level = 0;
+    label nGiven = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+        if (cloud.pFixed[i]) level += cloud.pGiven[i], ++nGiven;
+    return nGiven > 0 ? level / nGiven : 0;
+}
+
+// The p that a case starts from is a guess
+void fractionalStep::startPressure(particleCloud& cloud) const
+{
+    const scalar level = givenLevel(cloud);
+    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] = level;
+}
+
+// p of M p = f, from the p that it finds.  The level of what is given is left out: a tolerance shall not depend on it
+void fractionalStep::solvePressure(particleCloud& cloud, const List<scalar>& f, scalar cellSize,
+                                scalar dt)
+{
+    const scalar level = givenLevel(cloud);
+    List<scalar> b;
+    operator_.rightHandSide(f, level, b);
+    p_.resize(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i) p_[i] = cloud.heldPressure(i) - level;
+    const List<vector> x = points(cloud);
+    const solverPerformance result = pressureSolver_->solve(
+        {compact_, true, &x, cellSize, nullptr, floor(cloud, dt), &operator_}, b, p_);
+    result.print();
+    if (!result.converged && !(result.finalResidual < 1e-2))
+        throw notConverged(
+            "The pressure equation did not converge, worst at " +
+            cloud.describe(worstRow(operator_, b, p_)) + ": " + result.line() +
+            ". Raise maxIter in solvers.p of system/sphSolution, or reduce deltaT, and "
+            "see whether a load or a motion jumps; the last written time is intact");
+    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] = p_[i] + level;
+}
+
+void fractionalStep::printContinuityErrors(particleCloud& cloud, const stencil&, const List<scalar>& q,
+                                        scalar dt)
+{
+    List<scalar> left = divergence(cloud);
+    for (label i = 0; i < cloud.n(); ++i) left[i] -= q.empty() ? 0 : q[i];
+    ispf::printContinuityErrors(cloud, left, dt);
 }
 
 }  // namespace ispf

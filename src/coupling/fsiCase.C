@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fsiCase.H"
+#include "viscousPairs.H"
 
 #include "cloudIO.H"
 #include "sphc.H"
@@ -34,7 +35,6 @@ fsiCase::fsiCase(Time& t) : time(t)
     schemes = dictionary::fromFile(time.systemFile("sphSchemes"));
     solution = dictionary::fromFile(time.systemFile("sphSolution"));
     readCloud(time, cloud);
-    readPair();
     readProperties();
     readKernel();
     readBoundary();
@@ -46,19 +46,6 @@ fsiCase::fsiCase(Time& t) : time(t)
         if (const dictionary* d = solution.findDict(name);
             d && (coupling == "monolithic") != (word(name) == "monolithic"))
             d->markAllRead();
-    if (coupling == "monolithic") schemes.found("divergence"), schemes.found("gradient");
-}
-
-// Divergence and gradient of the fluid: each the other's adjoint, or each exact of linear fields
-void fsiCase::readPair()
-{
-    cloud.wallsApart =
-        schemes.chooseOrDefault("pair", {"corrected", "adjoint"}, "adjoint") == "adjoint";
-    if (!cloud.wallsApart) return;
-    for (const char* key : {"divergence", "gradient"})
-        if (schemes.found(key))
-            schemes.fail(key, "With pair adjoint, the default, '" + word(key) +
-                                  "' has no effect: remove it, or set pair corrected");
 }
 
 void fsiCase::readBoundary()
@@ -76,7 +63,6 @@ void fsiCase::read()
 {
     particleCloud then;
     readCloud(time, then);
-    then.wallsApart = cloud.wallsApart;
     const auto same = [](const zoneInfo& a, const zoneInfo& b) { return a.name == b.name; };
     if (then.nSolid() != cloud.nSolid() || then.nDims != cloud.nDims || then.dx != cloud.dx ||
         !std::equal(then.zones.begin(), then.zones.end(), cloud.zones.begin(), cloud.zones.end(),
@@ -282,8 +268,11 @@ void fsiCase::followOpen(scalar dt)
 {
     if (!walls->hasOpen()) return;
     cloud.fillGhosts(cloud.Up, false);
-    List<vec4> friction = sphc::laplacian({cloud, list, correction}, cloud.Up);
-    for (vec4& f : friction) f.s *= mu;
+    viscousPairs viscous;
+    viscous.setup({cloud, list, correction});
+    List<vec4> friction;
+    viscous.apply(cloud.Up, friction);
+    for (vec4& f : friction) f.s *= -2 * mu;
     walls->setOpenVelocity(cloud, friction, rho, dt);
 }
 
@@ -295,7 +284,6 @@ void fsiCase::report() const
            << "kernel: " << kernel->name() << ", h = " << str(kernel->h()) << " m, support "
            << str(kernel->support() / cloud.dx) << " dx\n"
            << "coupling: " << coupling << "\n"
-           << "pair: " << (cloud.wallsApart ? "adjoint" : "corrected") << "\n"
            << "fluid: rho = " << str(rho) << " kg/m3, mu = " << str(mu) << " Pa s\n"
            << "structure: " << (structure ? structure->description() : "none") << "\n"
            << "body force: " << (bodyForce.empty() ? "none" : "given") << "\n"

@@ -18,8 +18,8 @@
 #include "densityFeedback.H"
 #include "FGMRES.H"
 #include "monolithicPreconditioner.H"
-#include "shiftingOfCase.H"
-#include "sphc.H"
+#include "particleShifting.H"
+#include "shiftingFrame.H"
 #include "stepReport.H"
 #include "timeScheme.H"
 #include "volumeLedger.H"
@@ -47,8 +47,8 @@ public:
     explicit monolithic(fsiCase& c)
         : couplingScheme(c),
           dict_(c.solution.subOrEmptyDict("monolithic")),
-          system_(coupledSystem::New(c)),
-          preconditioner_(*system_, dict_),
+          system_(c),
+          preconditioner_(system_, dict_),
           theta_(dict_.getInRangeOrDefault("theta", 0, 1, c.structure ? 0.95 : 0)),
           alpha_(dict_.getInRangeOrDefault("volumeFeedback", 0, 1, 0.1)),
           tolerance_(dict_.getInRangeOrDefault("tolerance", 1e-14, 0.1, 1e-4)),
@@ -56,11 +56,11 @@ public:
           maxIter_(dict_.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
           time_(c),
           makesGood_(dict_.getOrDefault("divergenceDefect", true)),
-          shifting_(c),
-          density_(c.solution, *c.kernel, c.cloud)
+          shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c)),
+          density_(c.solution, c.cloud)
     {
         time_.keepLevels();
-        system_->enclosed().makeGood(makesGood_);
+        system_.enclosed().makeGood(makesGood_);
         if (!c.structure) return;
         c.cloud.scalars[missedField].resize(c.cloud.n(), 0);
         K_ = c.structure->tangentPattern();
@@ -91,13 +91,13 @@ private:
     scalar rounding(scalar dt, const List<scalar>& z) const;
 
     dictionary dict_;
-    std::unique_ptr<coupledSystem> system_;
+    coupledSystem system_;
     monolithicPreconditioner preconditioner_;
     scalar theta_, alpha_, tolerance_, absTolerance_;
     label maxIter_;
     timeScheme time_;
     bool makesGood_;
-    shiftingOfCase shifting_;
+    particleShifting shifting_;
     densityFeedback density_;
 
     std::unique_ptr<volumeConstraint> volume_;
@@ -214,7 +214,7 @@ void monolithic::account(scalar dt)
         volume_->overStep(c_.cloud.Up, dt, cofactor, missed);
         std::copy(missed.begin(), missed.end(), c_.cloud.scalars.at(missedField).begin());
     }
-    system_->enclosed().account(c_.cloud, dt, cofactor);
+    system_.enclosed().account(c_.cloud, dt, cofactor);
 }
 
 // div u is to be zero where the particles will be
@@ -238,14 +238,14 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     for (label i = cloud.nSolid(); i < cloud.n() && !c_.source.empty(); ++i)
         q[i] = c_.source[cloud.zone[i]];
     if (time_.wellStarts()) addWay(dt);
-    if (c_.structure) system_->setup(time_.tau(), volume_.get(), &surface_, &K_);
-    else system_->setup(time_.tau(), nullptr, nullptr, nullptr);
-    if (density_.on())
-        density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, system_->enclosed().bodyOf()),
-                       [&](label i) { return c_.isCut(i); });
-    system_->enclosed().addDefect(q);
+    if (c_.structure) system_.setup(time_.tau(), volume_.get(), &surface_, &K_);
+    else system_.setup(time_.tau(), nullptr, nullptr, nullptr);
+    if (density_.on() && !c_.walls->hasCyclic())
+        density_.addTo(q, system_.rows().pair(),
+                       drainedFluid(cloud, c_.list, system_.enclosed().bodyOf()), dt);
+    system_.enclosed().addDefect(q);
     preconditioner_.setup();
-    system_->rightHandSide(theta_, springForce_, q, b);
+    system_.rightHandSide(theta_, springForce_, q, b);
 
     z = guess();
     solverControls controls;
@@ -253,8 +253,8 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     controls.absTol = std::sqrt(scalar(cloud.n())) *
                       std::max(absTolerance_ * velocityScale(), rounding(time_.tau(), z));
     FGMRES solver(controls, "Up", maxIter_);
-    const solverPerformance result = solver.solve(*system_, preconditioner_, b, z);
-    system_->enclosed().keepLevel(cloud, z);
+    const solverPerformance result = solver.solve(system_, preconditioner_, b, z);
+    system_.enclosed().keepLevel(cloud, z);
     result.print();
     printContinuityErrors(b, z, dt);
     // measured: a tenth of the tolerance's digits still steps stably, no reduction at all does not
@@ -262,7 +262,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
         return "the coupled system did not converge (residual " + str(result.finalResidual, 3) +
                " of " + str(result.initialResidual, 3) + " after " +
                std::to_string(result.nIterations) + " iterations), worst at " +
-               cloud.describe(worstRow(*system_, b, z) / 4);
+               cloud.describe(worstRow(system_, b, z) / 4);
     return "";
 }
 
@@ -270,7 +270,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
 void monolithic::printContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt)
 {
     List<scalar> Az(b.size()), left(b.size() / 4);
-    system_->apply(z, Az);
+    system_.apply(z, Az);
     for (size_t i = 0; i < left.size(); ++i) left[i] = (Az[4 * i + 3] - b[4 * i + 3]) / c_.cloud.dx;
     ispf::printContinuityErrors(c_.cloud, left, dt);
 }
@@ -295,30 +295,29 @@ word monolithic::attempt(scalar t, scalar dt)
     particleCloud& cloud = c_.cloud;
     time_.start(cloud, t, dt);
     c_.updateNeighbours(time_.times());
-    system_->setStep(t, t + dt);
+    system_.setStep(t, t + dt);
     energy_.begin();
     structureState();
-    system_->hydrostatic().take(cloud);
+    system_.hydrostatic().take(cloud);
     time_.begin(cloud);
     const List<vec4> start(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
     List<scalar> z;
     if (const word reason = atTime(t + dt, [&] { return solve(dt, z); }); !reason.empty())
         return reason;
     accept(z);
-    if (energy_.on())
-        energy_.weigh(time_.weight(),
-                      [&] { system_->book(start, theta_, springForce_, q_, energy_); });
+    energy_.weigh(time_.weight(),
+                  [&] { system_.book(start, theta_, springForce_, q_, energy_); });
     if (const word reason = tooFar(dt); !reason.empty()) return reason;
     account(dt);
     time_.end(cloud, energy_);
-    system_->hydrostatic().giveBack(cloud);
+    system_.hydrostatic().giveBack(cloud);
 
     c_.followOpen(dt);
     // Shift first, with the neighbours at hand, then move
-    energy_.shifts([&] { shifting_.shift(dt, energy_.heated()); });
+    shift(shifting_, dt);
     time_.move(cloud);
     energy_.end();
-    if (const word reason = gains(); !reason.empty()) return reason;
+    if (const word reason = gains(dt); !reason.empty()) return reason;
     energy_.book();
     c_.walls->exchange(cloud, t + dt);
     return "";

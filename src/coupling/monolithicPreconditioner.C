@@ -119,7 +119,7 @@ void monolithicPreconditioner::momentum(const List<scalar>& r, List<vec4>& u) co
     if (system_.tangent()) solid_.solve(A, cloud, u);
 
     cloud.fillGhosts(u, true);
-    system_.viscousNeighbours(u, work_);
+    system_.rows().viscous().neighbours(u, work_);
     parallelFor(n - nSolid, [&](label begin, label end) {
         for (label i = nSolid + begin; i < nSolid + end; ++i)
         {
@@ -135,7 +135,7 @@ void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) con
     const label n = cloud.n();
     momentum(r, u_);
     cloud.fillGhosts(u_, true);
-    system_.divergence(u_, div_);
+    system_.rows().divergence(u_, div_);
     b_.resize(n), s_.resize(n);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
@@ -156,7 +156,7 @@ void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) con
         }
     });
     cloud.fillGhosts(phi_, true);
-    system_.gradient(phi_, work_);
+    system_.rows().gradient(phi_, work_);
     z.resize(4 * n);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)

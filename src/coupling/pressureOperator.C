@@ -5,7 +5,7 @@ namespace ispf
 {
 
 void pressureOperator::setup(const particleCloud& cloud, const neighbourList&,
-                             const adjointPair& pair, const pressureEquation& compact)
+                             const adjointPair& pair, const csrMatrix& compact)
 {
     cloud_ = &cloud, pair_ = &pair, compact_ = &compact;
     phi_.assign(cloud.nAll(), vec4{}), g_.assign(cloud.nAll(), vec4{});
@@ -51,7 +51,7 @@ void pressureOperator::apply(const List<scalar>& p, List<scalar>& y) const
     gradient(q, g_);
     rows(y);
     for (label i = 0; i < cloud.n(); ++i)
-        if (cloud.pHeld(i)) y[i] = compact_->A.diagonal[i] * p[i];
+        if (cloud.pHeld(i)) y[i] = compact_->diagonal[i] * p[i];
 }
 
 void pressureOperator::rightHandSide(const List<scalar>& f, scalar level, List<scalar>& b) const
@@ -69,7 +69,7 @@ void pressureOperator::rightHandSide(const List<scalar>& f, scalar level, List<s
         rows(b);
     }
     for (label i = 0; i < n; ++i)
-        b[i] = cloud.pHeld(i) ? compact_->A.diagonal[i] * given[i] : f[i] - b[i];
+        b[i] = cloud.pHeld(i) ? compact_->diagonal[i] * given[i] : f[i] - b[i];
 }
 
 }  // namespace ispf

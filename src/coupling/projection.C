@@ -6,18 +6,17 @@
 //     {
 //         viscosity      implicit;     // or explicit
 //         positionUpdate symplectic;   // or mean, x += dt (u^n + u^{n+1})/2 as in the paper
-//         reflection     0;            // to 1: less damping by the step, projectionStep.H
+//         reflection     0;            // to 1: less damping by the step, fractionalStep.H
 //         limits { CFL 0.4; force 0.25; viscous 0.125; }
 //     }
 //     shifting { ... }     densityFeedback 1;     solvers { p { ... } U { ... } }
 //
-// and `divergence`, `gradient` of system/sphSchemes.
 #include "closedBodies.H"
 #include "densityFeedback.H"
 #include "hydrostaticPart.H"
 #include "projectionLimits.H"
 #include "fractionalStep.H"
-#include "shiftingOfCase.H"
+#include "shiftingFrame.H"
 #include "solverPerformance.H"
 #include "stepReport.H"
 #include "timeScheme.H"
@@ -47,9 +46,9 @@ public:
                 "mean"),
           time_(c),
           limits_(c, explicit_, mean_, dict_.subOrEmptyDict("limits")),
-          step_(fractionalStep::New(c, explicit_ ? "explicit" : "implicit")),
-          shifting_(c),
-          density_(c.solution, *c.kernel, c.cloud),
+          step_(c.rho, c.mu, explicit_ ? "explicit" : "implicit", c.solution, time_.secondOrder()),
+          shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c)),
+          density_(c.solution, c.cloud),
           hydrostatic_(c)
     {
         const auto refuse = [&](const word& key) {
@@ -84,8 +83,8 @@ private:
     bool explicit_, mean_;
     timeScheme time_;
     projectionLimits limits_;
-    std::unique_ptr<fractionalStep> step_;
-    shiftingOfCase shifting_;
+    fractionalStep step_;
+    particleShifting shifting_;
     densityFeedback density_;
     hydrostaticPart hydrostatic_;
     vector slope_ = vector::Zero();  // of p along cyclic patches with a pressureDrop [Pa/m]
@@ -169,26 +168,22 @@ void projection::solve(const stencil& s, scalar dt)
     q.resize(cloud.n(), 0);
     const List<label> closed = closedBodies(cloud, c_.list);
     if (!c_.structure) checkPushed(closed);
-    if (density_.on())
-        density_.addTo(q, c_.list, drainedFluid(cloud, c_.list, closed),
-                       [&](label i) { return c_.isCut(i); });
     hydrostatic_.take(cloud), addSlope(-1, slopeBehind());
-    step_->setup(cloud, s, *c_.kernel);
+    step_.setup(cloud, s, *c_.kernel);
+    if (density_.on() && !c_.walls->hasCyclic())
+        density_.addTo(q, step_.pair(), drainedFluid(cloud, c_.list, closed), dt);
     List<vec4> spring;
-    step_->predict(cloud, s, accelerations(slope_, spring), dt);
-    step_->project(cloud, s, q, c_.kernel->support(), dt);
-    if (energy_.on())
-    {
-        energy_.weigh(time_.weight(), [&] {
-            step_->book(cloud, dt, energy_);
-            energy_[energyLedger::forces] -= energy_.bookSprings(spring, dt);
-        });
-    }
-    step_->settle(cloud, c_.kernel->support(), dt);
+    step_.predict(cloud, s, accelerations(slope_, spring), dt);
+    step_.project(cloud, s, q, c_.kernel->support(), dt);
+    energy_.weigh(time_.weight(), [&] {
+        step_.book(cloud, dt, energy_);
+        energy_[energyLedger::forces] -= energy_.bookSprings(spring, dt);
+    });
+    step_.settle(cloud, c_.kernel->support(), dt);
     hydrostatic_.giveBack(cloud), addSlope(1, slope_);
     if (slope_.isZero(0)) cloud.history.erase(slopeOfStep);
     else cloud.history[slopeOfStep] = {slope_[0], slope_[1], slope_[2]};
-    step_->printContinuityErrors(cloud, s, q, dt);
+    step_.printContinuityErrors(cloud, s, q, dt);
     density_.book(cloud, dt);
 }
 
@@ -218,10 +213,10 @@ word projection::attempt(scalar t, scalar dt)
     time_.end(cloud, energy_);
     c_.followOpen(dt);
     // shifted with the neighbours at hand, then moved
-    energy_.shifts([&] { shifting_.shift(dt, energy_.heated()); });
+    shift(shifting_, dt);
     time_.move(cloud, mean_);
     energy_.end();
-    if (const word reason = gains(); !reason.empty()) return reason;
+    if (const word reason = gains(dt); !reason.empty()) return reason;
     energy_.book();
     c_.walls->keepVelocities(cloud);
     c_.walls->exchange(cloud, t + dt);

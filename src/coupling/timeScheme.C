@@ -25,7 +25,6 @@ const vec4* fieldOf(const particleCloud& cloud, const word& name)
 timeScheme::timeScheme(const fsiCase& c)
     : c_(c), DLN_(c.schemes.chooseOrDefault("ddtScheme", {"Euler", "DLN"}, "Euler") == "DLN")
 {
-    if (DLN_ && !c.cloud.wallsApart) c.schemes.fail("ddtScheme", "DLN wants pair adjoint");
     if (DLN_ && c.structure)
         c.schemes.fail("ddtScheme", "DLN is for fluid alone; with a structure take Euler");
     keeps_ = DLN_;

@@ -37,13 +37,12 @@ scalar dissipationOf(const presentState& s, scalar mu)
     return -mu * s.cloud.volume() * viscous.powerOf(s.cloud.Up).dissipated;
 }
 
-List<word> titles(bool ledger)
+List<word> titles()
 {
     List<word> all = {"kinetic",    "elastic",  "potential", "dissipation", "wallPower",
                       "dissipated", "wallWork", "openPower", "openWork"};
-    if (ledger)
-        all.insert(all.end(), energyLedger::titles.begin() + energyLedger::nStores,
-                   energyLedger::titles.end());
+    all.insert(all.end(), energyLedger::titles.begin() + energyLedger::nStores,
+               energyLedger::titles.end());
     return all;
 }
 
@@ -55,7 +54,7 @@ public:
           file_(table("energy.dat",
                       {"Energies [J], powers [W] and their integrals [J]" +
                        word(c.cloud.nDims == 2 ? ", per metre" : "")},
-                      titles(c.cloud.wallsApart), 9))
+                      titles(), 9))
     {
         for (const word& w : c.walls->movingWalls())
             walls_.push_back(loadedBody::wall(w, c, dict.where()));

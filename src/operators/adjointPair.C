@@ -89,6 +89,11 @@ ISPF_HOT void remainderRange(const view& v, const vec4* g, label begin, label en
 
 }  // namespace
 
+scalar closureTolerance(const dictionary& solution)
+{
+    return solution.subOrEmptyDict("closure").getInRangeOrDefault("tolerance", 1e-14, 1e-2, 1e-4);
+}
+
 void adjointPair::setup(particleCloud& cloud, const neighbourList& list,
                         const smoothingKernel& kernel, medium within, const List<vec4>& solidB,
                         const List<tensor>& solidMoment)
@@ -97,18 +102,19 @@ void adjointPair::setup(particleCloud& cloud, const neighbourList& list,
     const label n = cloud.n(), first = within_.first;
     walls_.build(cloud, list, kernel, first == 0);
     List<vec4> b = walls_.b;
-    List<tensor> M = walls_.moment;
+    moment_ = walls_.moment;
     for (label i = first; i < label(solidB.size()); ++i)
-        b[i].s += solidB[i].s, M[i] += solidMoment[i];
+        b[i].s += solidB[i].s, moment_[i] += solidMoment[i];
     List<vec4>& psi = cloud.vectors["closure"];
     psi.resize(n, vec4{});
-    closure_ = faces_.build(cloud, list, within_, b, M, psi);
+    closure_ = faces_.build(cloud, list, within_, b, moment_, psi, tolerance_);
 
     free_ = cloud.freeDirections();
     List<tensor> linear(walls_.linear), one(within_.one);
     List<vec4> drag(n, vec4{});
     wallFlux_ = walls_.flux, faceFlux_.clear();
     addCut(linear, one, drag);
+    fitArms(linear, drag);
     linearRow_.assign(n, -1), linearB_.clear();
     for (label i = first; i < n; ++i)
         if (!linear[i].isZero(0) && !faces_.poor[i])
@@ -131,6 +137,46 @@ void adjointPair::setup(particleCloud& cloud, const neighbourList& list,
     addDrag(one, walls_.drag, wallFlux_);
     if (!faceFlux_.empty()) addDrag(one, drag, faceFlux_);
     for (label i = 0; i < label(faceFlux_.size()); ++i) wallFlux_[i] += faceFlux_[i];
+}
+
+// sum_j a_ij (x) (x_j - x_i) + M_i
+tensor adjointPair::momentOf(label i) const
+{
+    tensor sum = moment_[i];
+    for (std::int64_t k = list_->start[i]; k < (*within_.end)[i]; ++k)
+        sum += faces_.a[k].xyz() *
+               (cloud_->x[list_->index[k]].xyz() - cloud_->x[i].xyz()).transpose();
+    return sum;
+}
+
+scalar adjointPair::cell(label i) const
+{
+    return momentOf(i).trace() / cloud_->nDims;
+}
+
+// The arms to elements that p goes on linearly to make good what the fit leaves of (2.5): (3.13)
+void adjointPair::fitArms(List<tensor>& linear, List<vec4>& drag)
+{
+    // eigenvalue of T T^T from which on an arm is fitted, and its largest change (doc/constants.md)
+    constexpr scalar least = 0.01, most = 0.5;
+    arm_.assign(cloud_->n(), tensor::Identity());
+    const label first = within_.first;
+    const tensor one = vector(1, 1, cloud_->nDims == 2 ? 0 : 1).asDiagonal();
+    parallelFor(cloud_->n() - first, [&](label begin, label end) {
+        for (label i = first + begin; i < first + end; ++i)
+        {
+            if (linear[i].isZero(0) || faces_.poor[i]) continue;
+            const tensor& T = linear[i];
+            tensor change = T.transpose() *
+                            (T * T.transpose() + least * tensor::Identity()).inverse() *
+                            (one - momentOf(i));
+            if (const scalar size = change.norm(); size > most) change *= most / size;
+            const tensor arm = tensor::Identity() + change;
+            arm_[i] = arm, linear[i] = T * arm;
+            walls_.drag[i] = vec4::from(arm.transpose() * walls_.drag[i].xyz());
+            if (!drag.empty()) drag[i] = vec4::from(arm.transpose() * drag[i].xyz());
+        }
+    });
 }
 
 // (3.5) of u = 0

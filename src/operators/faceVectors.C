@@ -4,7 +4,10 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 
 namespace ispf
 {
@@ -147,6 +150,7 @@ public:
         : cloud_(cloud), list_(list), within_(within), B_(cloud.nAll()), psi_(cloud.nAll())
     {
         poor_.assign(cloud.n(), 0), closed_.assign(cloud.n(), 0), share_.assign(cloud.nAll(), 1);
+        gatherStrips();
     }
 
     // A particle with few neighbours keeps a bounded correction; with next to none it is not closed
@@ -166,9 +170,32 @@ public:
                 }
             B_[i] = columns::of(own);
             closed_[i] = !cloud_.beyondOpen(i) && !(poor_[i] && alone(i));
-            if (closed_[i] && i < known) psi_[i] = psi[i];
+            if ((closed_[i] || cloud_.stripOf(i) > 0) && i < known) psi_[i] = psi[i];
         });
-        fillB(), fill(psi_);
+        for (const strip& s : strips_)
+        {
+            const simd4 mean = total(s, psi_) / scalar(std::max<size_t>(1, s.members.size()));
+            for (const label i : s.members) psi_[i].s = mean;
+        }
+        takeInside(), fillB(), fill(psi_);
+    }
+
+    // The support of a strip ends: it has the correction of the fluid before the face
+    void takeInside()
+    {
+        for (const strip& s : strips_)
+            for (const label i : s.members)
+            {
+                columns sum = {};
+                scalar all = 0;
+                for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
+                    if (const label j = list_.index[k]; j < cloud_.n() && closed_[j])
+                    {
+                        for (int a = 0; a < 3; ++a) sum.c[a] -= list_.F[k] * B_[j].c[a];
+                        all -= list_.F[k];
+                    }
+                for (int a = 0; a < 3 && all > 0; ++a) B_[i].c[a] = sum.c[a] / all;
+            }
     }
 
     // sum_j w_ij |x_ij|^2 is the number of dimensions in the midst of fluid, a quarter of it in a corner
@@ -187,59 +214,94 @@ public:
         List<columns> moment(cloud_.n());
         forRanges([&](label i, label end) { momentRange(sight(), i, end, moment.data()); });
         forMedium([&](label i) {
-            if (poor_[i]) return;
+            if (poor_[i] || isStrip(i)) return;
             const columns change = columns::of((one - moment[i].matrix() - M[i]) * within_.one[i]);
             for (int a = 0; a < 3; ++a) B_[i].c[a] += change.c[a];
         });
-        fillB();
+        takeInside(), fillB();
     }
 
     // psi of (2.4), by conjugate gradients with the diagonal
     void close(const List<vec4>& b, scalar tolerance, faceVectors::closure& result)
     {
         constexpr int most = 200;
-        // a tiny share of the diagonal keeps the level of psi, which has no effect
-        constexpr scalar level = 1e-7;
         const label n = cloud_.n();
-        List<vec4> r(n), p(n), q(n);
-        List<scalar> diagonal(n, 1);
-        label nClosed = 0;
-        for (label i = within_.first; i < n; ++i) nClosed += closed_[i];
+        List<vec4> r(n), z(n), p(n), q(n);
         result.poor = label(std::count(poor_.begin(), poor_.end(), 1));
+        const label nClosed = label(std::count(closed_.begin(), closed_.end(), 1));
         if (nClosed == 0) return;
+        const List<scalar> diagonal = graphDiagonal();
         forRanges([&](label i, label end) { openRange(sight(), b.data(), i, end, r.data()); });
-        forMedium([&](label i) {
-            r[i].s *= closed_[i] ? -inSpace : simd4{};
-            scalar sum = 0;
-            for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k) sum -= list_.F[k];
-            if (sum > 0) diagonal[i] = sum;
-            p[i].s = r[i].s / diagonal[i];
-        });
-        const scalar scale = cloud_.dx * cloud_.dx / nClosed;
-        scalar rr = sumOf([&](label i) { return squareOf(r[i]); });
-        scalar rz = sumOf([&](label i) { return squareOf(r[i]) / diagonal[i]; });
+        forMedium([&](label i) { r[i].s *= -inSpace; });
+        for (const strip& s : strips_)
+        {
+            for (const label i : s.members)
+                r[i].s = overStrip(i, [&](label j, scalar w) {
+                    return -w *
+                           (sight().corrected(i, j, sight().way(i, j)) + sight().closing(i, j));
+                });
+            const simd4 sum = total(s, r) - s.half.s;
+            for (const label i : s.members) r[i].s = sum;
+        }
+        const auto holds = [&](label i) { return (closed_[i] ? level : stripLevel) * diagonal[i]; };
+        forMedium([&](label i) { r[i].s -= holds(i) * psi_[i].s; });
+        keepFree(r);
+        const coarseLevel coarse = makeCoarse(diagonal);
+        const auto ofBlocks = [&] {  // what the blocks lack, z = P A_c^-1 P^T r
+            List<Eigen::Vector3d> at(coarse.n, Eigen::Vector3d::Zero());
+            for (label i = within_.first; i < n; ++i)
+                if (const label c = coarse.of[i]; c >= 0) at[c] += weight_[i] * r[i].xyz();
+            coarse.solve(at);
+            forMedium([&](label i) {
+                const label c = coarse.of[i];
+                z[i] = c >= 0 ? vec4::from(at[c]) : vec4{};
+            });
+        };
+        const auto precondition = [&] {
+            ofBlocks();
+            forMedium([&](label i) { z[i].s += r[i].s / diagonal[i]; });
+            keepFree(z);
+        };
+        const auto dot = [&](const List<vec4>& f, const List<vec4>& g) {
+            return sumOf([&](label i) {
+                const simd4 fg = f[i].s * g[i].s;
+                return fg[0] + fg[1] + fg[2];
+            });
+        };
+        precondition();
+        p = z;
+        // the step over blocks at the end may enlarge what is left
+        constexpr scalar safe = 0.9;
+        const scalar scale = cloud_.dx * cloud_.dx / (safe * safe * nClosed);
+        scalar rr = dot(r, r), rz = dot(r, z);
         for (; result.iterations < most && rr * scale > tolerance * tolerance && rz > 0;
              ++result.iterations)
         {
             fill(p);
             forRanges([&](label i, label end) { graphRange(sight(), p.data(), i, end, q.data()); });
-            forMedium([&](label i) {
-                q[i].s += level * diagonal[i] * p[i].s;
-                if (!closed_[i]) q[i] = vec4{};
-            });
-            const scalar pq = sumOf([&](label i) {
-                const simd4 s = p[i].s * q[i].s;
-                return s[0] + s[1] + s[2];
-            });
+            for (const strip& s : strips_)
+            {
+                for (const label i : s.members)
+                    q[i].s = overStrip(i, [&](label j, scalar w) { return w * (p[i].s - p[j].s); });
+                const simd4 sum = total(s, q);
+                for (const label i : s.members) q[i].s = sum;
+            }
+            forMedium([&](label i) { q[i].s += holds(i) * p[i].s; });
+            keepFree(q);
+            const scalar pq = dot(p, q);
             if (!(pq > 0)) break;
             const scalar alpha = rz / pq;
             forMedium([&](label i) { psi_[i].s += alpha * p[i].s, r[i].s -= alpha * q[i].s; });
-            const scalar next = sumOf([&](label i) { return squareOf(r[i]) / diagonal[i]; });
-            rr = sumOf([&](label i) { return squareOf(r[i]); });
-            forMedium([&](label i) { p[i].s = r[i].s / diagonal[i] + next / rz * p[i].s; });
+            precondition();
+            const scalar next = dot(r, z);
+            rr = dot(r, r);
+            forMedium([&](label i) { p[i].s = z[i].s + next / rz * p[i].s; });
             rz = next;
         }
-        result.defect = std::sqrt(rr * scale);
+        // what is left shall have no sum over any block.  Across symmetry planes blocks are stiffer than makeCoarse knows
+        const tensor free = cloud_.freeDirections();
+        ofBlocks();
+        forMedium([&](label i) { psi_[i].s += vec4::from(free * z[i].xyz()).s; });
         fill(psi_);
     }
 
@@ -279,20 +341,176 @@ public:
 
     const List<char>& poor() const { return poor_; }
     // Once closed.  Less its mean, which is zero but where fluid is open: a level of p has no gradient
-    List<vec4> left(const List<vec4>& b) const
+    List<vec4> left(const List<vec4>& b, faceVectors::closure& result) const
     {
         List<vec4> c(cloud_.n(), vec4{});
         forRanges([&](label i, label end) { openRange(sight(), b.data(), i, end, c.data()); });
         simd4 mean = {};
         label nClosed = 0;
+        scalar squares = 0;
         for (label i = within_.first; i < cloud_.n(); ++i)
-            if (closed_[i]) mean += c[i].s, ++nClosed;
-        if (nClosed > 0) mean /= scalar(nClosed);
+            if (closed_[i]) mean += c[i].s, squares += squareOf(c[i]), ++nClosed;
+        if (nClosed > 0) mean /= scalar(nClosed), squares /= nClosed;
+        result.defect = cloud_.dx * std::sqrt(squares);
         forMedium([&](label i) { c[i].s = closed_[i] ? c[i].s - mean : simd4{}; });
         return c;
     }
 
 private:
+    // Shares of the diagonal that keep the level of psi, which has no effect: of particles, and of strips, which take what
+    // areas do not add up to
+    static constexpr scalar level = 1e-9, stripLevel = 1e-5;
+
+    // Fluid beyond an open face is one cell
+    struct strip
+    {
+        List<label> members;
+        vec4 half;  // area vector of the face, over 2 V
+    };
+
+    void gatherStrips()
+    {
+        weight_.assign(cloud_.n(), 1);
+        strips_.resize(cloud_.stripArea.size());
+        for (label i = within_.first; i < cloud_.n(); ++i)
+            if (const label k = cloud_.stripOf(i); k > 0 && cloud_.stripArea[k].allFinite())
+                strips_[k].members.push_back(i);
+        const tensor free = cloud_.freeDirections();
+        for (size_t k = 0; k < strips_.size(); ++k)
+        {
+            if (!strips_[k].members.empty())
+                strips_[k].half = vec4::from(free * cloud_.stripArea[k] / (2 * cloud_.volume()));
+            for (const label i : strips_[k].members)
+                weight_[i] = 1 / scalar(strips_[k].members.size());
+        }
+    }
+    static simd4 total(const strip& s, const List<vec4>& f)
+    {
+        simd4 sum = {};
+        for (const label i : s.members) sum += f[i].s;
+        return sum;
+    }
+    // Sum of term(j, w_ij) over the neighbours of a strip's particle that are in no strip
+    template <class Term>
+    simd4 overStrip(label i, Term&& term) const
+    {
+        simd4 sum = {};
+        for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
+            if (const label j = list_.index[k]; !isStrip(cloud_.ownerOf(j)))
+                sum += term(j, -list_.F[k]);
+        return sum;
+    }
+    // Nothing of particles that are not closed; of strips nothing that symmetry planes turn
+    void keepFree(List<vec4>& f) const
+    {
+        const tensor free = cloud_.freeDirections();
+        forMedium([&](label i) {
+            if (closed_[i]) return;
+            const bool inStrip = weight_[i] < 1 || isStrip(i);
+            f[i] = inStrip ? vec4::from(free * f[i].xyz()) : vec4{};
+        });
+    }
+    bool isStrip(label i) const
+    {
+        const label k = cloud_.stripOf(i);
+        return k > 0 && !strips_[k].members.empty();
+    }
+    // The graph's Laplacian over blocks of particles, each with one value; a strip is a block
+    struct coarseLevel
+    {
+        label n = 0;
+        List<label> of;  // block of a particle, -1: none
+        Eigen::LDLT<Eigen::MatrixXd> factor;
+        void solve(List<Eigen::Vector3d>& f) const
+        {
+            Eigen::MatrixXd all(n, 3);
+            for (label c = 0; c < n; ++c) all.row(c) = f[c].transpose();
+            all = factor.solve(all).eval();
+            for (label c = 0; c < n; ++c) f[c] = all.row(c).transpose();
+        }
+    };
+
+    coarseLevel makeCoarse(const List<scalar>& diagonal) const
+    {
+        constexpr scalar mostBlocks = 200, leastInBlock = 30, regular = 1e-8;
+        coarseLevel coarse;
+        coarse.of.assign(cloud_.n(), -1);
+        const scalar count = scalar(cloud_.n() - within_.first);
+        const scalar edge =
+            cloud_.dx * std::pow(std::max(leastInBlock, count / mostBlocks), 1.0 / cloud_.nDims);
+        std::map<std::array<label, 3>, label> blocks;
+        for (label i = within_.first; i < cloud_.n(); ++i)
+        {
+            std::array<label, 3> key = {-std::numeric_limits<label>::max(), cloud_.stripOf(i), 0};
+            if (closed_[i])
+                for (int d = 0; d < 3; ++d) key[d] = label(std::floor(cloud_.x[i][d] / edge));
+            else if (!isStrip(i)) continue;
+            coarse.of[i] = blocks.try_emplace(key, label(blocks.size())).first->second;
+        }
+        coarse.n = label(blocks.size());
+        constexpr label nParts = 16;
+        const label rows = cloud_.n() - within_.first;
+        List<Eigen::MatrixXd> parts(nParts);
+        parallelFor(
+            nParts,
+            [&](label begin, label end) {
+                for (label k = begin; k < end; ++k)
+                {
+                    parts[k] = Eigen::MatrixXd::Zero(coarse.n, coarse.n);
+                    const label from = within_.first + label(std::int64_t(rows) * k / nParts),
+                                to = within_.first + label(std::int64_t(rows) * (k + 1) / nParts);
+                    addCoarse(coarse.of, from, to, parts[k]);
+                }
+            },
+            1);
+        Eigen::MatrixXd A = Eigen::MatrixXd::Zero(coarse.n, coarse.n);
+        for (const Eigen::MatrixXd& part : parts) A += part;
+        for (label i = within_.first; i < cloud_.n(); ++i)
+            if (const label c = coarse.of[i]; c >= 0)
+                A(c, c) += (closed_[i] ? regular : stripLevel) * weight_[i] * diagonal[i];
+        coarse.factor.compute(A);
+        return coarse;
+    }
+
+    void addCoarse(const List<label>& of, label from, label to, Eigen::MatrixXd& A) const
+    {
+        for (label i = from; i < to; ++i)
+        {
+            if (of[i] < 0) continue;
+            for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
+            {
+                const label other = of[cloud_.ownerOf(list_.index[k])];
+                if (other == of[i] || (isStrip(i) && isStrip(cloud_.ownerOf(list_.index[k]))))
+                    continue;
+                A(of[i], of[i]) -= list_.F[k];
+                if (other >= 0) A(of[i], other) += list_.F[k];
+            }
+        }
+    }
+
+    // sum_j w_ij, of a strip over those beyond it
+    List<scalar> graphDiagonal() const
+    {
+        List<scalar> diagonal(cloud_.n(), 1);
+        forMedium([&](label i) {
+            scalar sum = 0;
+            for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
+            {
+                const label other = cloud_.ownerOf(list_.index[k]);
+                if (!isStrip(i) || !isStrip(other)) sum -= list_.F[k];
+            }
+            if (sum > 0) diagonal[i] = sum;
+            else if (isStrip(i)) diagonal[i] = 0;
+        });
+        for (const strip& s : strips_)
+        {
+            scalar sum = 0;
+            for (const label i : s.members) sum += diagonal[i];
+            for (const label i : s.members) diagonal[i] = sum > 0 ? sum : 1;
+        }
+        return diagonal;
+    }
+
     view sight() const
     {
         return {list_.start.data(), within_.end->data(), list_.index.data(), list_.F.data(),
@@ -319,7 +537,7 @@ private:
         const label first = within_.first;
         return parallelSum(cloud_.n() - first, [&](label from, label to) {
             scalar sum = 0;
-            for (label i = first + from; i < first + to; ++i) sum += term(i);
+            for (label i = first + from; i < first + to; ++i) sum += weight_[i] * term(i);
             return sum;
         });
     }
@@ -344,7 +562,9 @@ private:
     List<columns> B_;
     List<vec4> psi_;
     List<char> poor_, closed_;
-    List<scalar> share_;
+    List<scalar> share_,
+        weight_;  // weight_: of a particle in a sum, one for all members of a strip
+    List<strip> strips_;
 };
 
 }  // namespace
@@ -353,7 +573,7 @@ faceVectors::closure faceVectors::build(const particleCloud& cloud, const neighb
                                         const medium& within, const List<vec4>& b,
                                         const List<tensor>& M, List<vec4>& psi, scalar tolerance)
 {
-    constexpr int sweeps = 2;  // doc/constants.md
+    constexpr int sweeps = 3;  // doc/constants.md
     closure result;
     builder faces(cloud, list, within);
     faces.start(M, psi);
@@ -361,7 +581,7 @@ faceVectors::closure faceVectors::build(const particleCloud& cloud, const neighb
     faces.shorten();
     faces.close(b, tolerance, result);
     faces.write(a, psi);
-    poor = faces.poor(), left = faces.left(b);
+    poor = faces.poor(), left = faces.left(b, result);
     return result;
 }
 

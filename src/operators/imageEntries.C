@@ -9,27 +9,11 @@ namespace ispf
 namespace
 {
 
-struct weighted
-{
-    scalar w = 0, wb = 0;
-    void operator+=(const weighted& a) { w += a.w, wb += a.wb; }
-};
-
-// w (p_i - m p_s - b) in row i: its own half and the half that mirrors the row of the source
+// w (p_i - m p_s) in row i
 struct link
 {
     label row, column;
-    scalar m;
-    weighted own, mirrored;
-
-    scalar weight() const { return own.w + mirrored.w; }
-    // b is the row's own business (a wall's body-force jump has one sign on both sides, a cyclic
-    // jump two); only a row that does not see the image takes the other's
-    scalar source() const
-    {
-        const weighted& b = own.w > 0 ? own : mirrored;
-        return weight() * b.wb / b.w;
-    }
+    scalar m, w;
 };
 
 bool before(const link& a, const link& c)
@@ -62,7 +46,7 @@ struct linkRows
         label to = start[i];
         for (label k = start[i] + 1; k < start[i + 1]; ++k)
             if (links[k].column == links[to].column && links[k].m == links[to].m)
-                links[to].own += links[k].own, links[to].mirrored += links[k].mirrored;
+                links[to].w += links[k].w;
             else links[++to] = links[k];
         end[i] = to + 1;
     }
@@ -76,11 +60,7 @@ void appendLinks(const particleCloud& cloud, const neighbourList& list, label i,
         if (j < cloud.n()) continue;
         const scalar w = -2 * list.F[k];
         if (!negligible(w, cloud.dx))
-            links.push_back({i,
-                             cloud.ghostSource(j),
-                             cloud.ruleOf(j).M(3, 3),
-                             {w, w * cloud.ghostOffset(j)[3]},
-                             {}});
+            links.push_back({i, cloud.ghostSource(j), cloud.ruleOf(j).M(3, 3), w});
     }
 }
 
@@ -112,9 +92,9 @@ List<link> symmetrised(const linkRows& rows)
         {
             link l = rows.links[k];
             const bool pair = l.row != l.column && l.m != 0;
-            if (pair) l.own.w *= 0.5, l.own.wb *= 0.5;
+            if (pair) l.w *= 0.5;
             links.push_back(l);
-            if (pair) links.push_back({l.column, l.row, l.m, {}, l.own});
+            if (pair) links.push_back({l.column, l.row, l.m, l.w});
         }
     return links;
 }
@@ -124,7 +104,7 @@ List<link> symmetrised(const linkRows& rows)
 void imageEntries::build(const particleCloud& cloud, const neighbourList& list)
 {
     const label n = cloud.n();
-    start.assign(n + 1, 0), diagonal.assign(n, 0), source.assign(n, 0), entries.clear();
+    start.assign(n + 1, 0), diagonal.assign(n, 0), entries.clear();
     if (cloud.nGhosts() == 0) return;
 
     const linkRows oneSided(n, linksOf(cloud, list));
@@ -135,12 +115,11 @@ void imageEntries::build(const particleCloud& cloud, const neighbourList& list)
         for (label k = rows.start[i]; k < rows.end[i]; ++k)
         {
             const link& l = rows.links[k];
-            source[i] += l.source();
-            diagonal[i] += l.weight();
-            if (l.column == i) diagonal[i] -= l.m * l.weight();
+            diagonal[i] += l.w;
+            if (l.column == i) diagonal[i] -= l.m * l.w;
             else if (label(entries.size()) > start[i] && entries.back().column == l.column)
-                entries.back().offDiagonal -= l.m * l.weight();
-            else entries.push_back({l.column, -l.m * l.weight()});
+                entries.back().offDiagonal -= l.m * l.w;
+            else entries.push_back({l.column, -l.m * l.w});
         }
     }
     start[n] = label(entries.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "particleShifting.H"
-#include "pairSums.H"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ispf
@@ -10,10 +10,8 @@ namespace ispf
 namespace
 {
 
-struct change
-{
-    vec4 x, Up;
-};
+// Way of the fastest particle in a step [dx] from which on the closing shift is taken in full (doc/constants.md)
+constexpr scalar inFull = 0.1;
 
 // sum_j (r_mean/r_ij)^2 n_ij = r_mean^2 sum_j x_ij / r_ij^3, all neighbours of i
 ISPF_INLINE vector crowding(const particleCloud& cloud, const neighbourList& list, label i)
@@ -31,37 +29,13 @@ ISPF_INLINE vector crowding(const particleCloud& cloud, const neighbourList& lis
     return rSum * rSum / (n * n) * vector(sum[0], sum[1], sum[2]);
 }
 
-struct shiftRows
+// V sum_j grad W_ij, all neighbours of i
+ISPF_INLINE vector slopeOfSum(const particleCloud& cloud, const neighbourList& list, label i)
 {
-    const particleCloud& cloud;
-    const neighbourList& list;
-    const kernelCorrection& correction;
-    const std::function<bool(label)>& leaveAlone;
-    scalar alpha, most;
-
-    // Without a one-sided gradient the fields could not follow
-    bool moves(label i) const
-    {
-        return list.start[i] != list.start[i + 1] && !correction.same[i].isZero(0) &&
-               !(leaveAlone && leaveAlone(i));
-    }
-};
-
-ISPF_HOT void evaluate(const shiftRows& s, label begin, label end, change* result)
-{
-    for (label i = begin; i < end; ++i, ++result)
-    {
-        *result = change{};
-        if (!s.moves(i)) continue;
-        vector dr = s.alpha * crowding(s.cloud, s.list, i);
-        const scalar size = dr.norm();
-        if (size > s.most) dr *= s.most / size;
-        pairSums sums;
-        sums.add(s.list, s.cloud.x.data(), s.cloud.Up.data(), i, s.list.start[i], s.list.mid[i]);
-        const vector w = s.correction.same[i].transpose() * dr;
-        result->x = vec4::from(dr);
-        result->Up.s = w[0] * sums.gx + w[1] * sums.gy + w[2] * sums.gz;
-    }
+    simd4 sum = {};
+    for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
+        sum += list.F[k] * (cloud.x[i].s - cloud.x[list.index[k]].s);
+    return {sum[0], sum[1], sum[2]};
 }
 
 }  // namespace
@@ -69,7 +43,8 @@ ISPF_HOT void evaluate(const shiftRows& s, label begin, label end, change* resul
 particleShifting::particleShifting(const dictionary& dict, const word& frame)
 {
     if (dict.chooseOrDefault("type", {"Xu", "none"}, "Xu") == "none") return;
-    constant_ = dict.getInRangeOrDefault("constant", 0, 1, 0.1);
+    constant_ = dict.getInRangeOrDefault("constant", 0, 1, 0.15);
+    closing_ = dict.getInRangeOrDefault("closing", 0, 2, 0.7);
     maxShift_ = dict.getInRangeOrDefault("maxShift", 0, 0.2, 0.05);
     againstMean_ = dict.chooseOrDefault("frame", {"still", "mean"}, frame) == "mean";
 }
@@ -98,31 +73,95 @@ scalar particleShifting::speed(const particleCloud& cloud) const
 word particleShifting::describe() const
 {
     if (!on()) return "none";
-    return "Xu, constant " + str(constant_) + ", at most " + str(maxShift_) + " dx" +
-           (againstMean_ ? ", by the speed against the mean" : "");
+    return "Xu, constant " + str(constant_) + ", closing " + str(closing_) + ", at most " +
+           str(maxShift_) + " dx" + (againstMean_ ? ", by the speed against the mean" : "");
 }
 
-void particleShifting::shift(particleCloud& cloud, const neighbourList& list,
-                             const kernelCorrection& correction, scalar dt,
-                             const std::function<bool(label)>& leaveAlone) const
+namespace
 {
-    const shiftRows rows{
-        cloud, list, correction, leaveAlone, constant_ * speed(cloud) * dt, maxShift_ * cloud.dx};
-    if (!(rows.alpha > 0)) return;
-    cloud.fillGhosts(cloud.Up, false);
 
+// dr.grad u, each component within the range of the neighbours'
+vector limitedChange(const particleCloud& cloud, const neighbourList& list, const tensor& B,
+                     label i, const vector& dr)
+{
+    const simd4 ui = cloud.Up[i].s;
+    simd4 gx = {}, gy = {}, gz = {}, low = {}, high = {};
+    for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
+    {
+        const label j = list.index[k];
+        const simd4 g = list.F[k] * (cloud.x[i].s - cloud.x[j].s), e = cloud.Up[j].s - ui;
+        gx += e * g[0], gy += e * g[1], gz += e * g[2];
+        low = e < low ? e : low, high = e > high ? e : high;
+    }
+    // a mirror image is as far beyond the wall as its source before it
+    for (std::int64_t k = list.wall[i]; k < list.start[i + 1]; ++k)
+    {
+        const label j = list.index[k];
+        const scalar part = cloud.phase[j] == phaseType::mirror ? 0.5 : 1;
+        const simd4 e = part * (cloud.Up[j].s - ui);
+        low = e < low ? e : low, high = e > high ? e : high;
+    }
+    const vector w = B.transpose() * dr;
+    const simd4 change = w[0] * gx + w[1] * gy + w[2] * gz;
+    vector v;
+    for (int d = 0; d < 3; ++d) v[d] = std::clamp(change[d], low[d], high[d]);
+    return v;
+}
+
+// Positive or negative entries of each component are reduced until their sum is zero; not along what symmetry planes turn
+void balance(const particleCloud& cloud, List<vector>& v)
+{
+    const tensor free = cloud.freeDirections();
+    for (int d = 0; d < 3; ++d)
+    {
+        if (free(d, d) < 1 - 1e-9) continue;
+        scalar sums[2] = {0, 0};
+        for (const vector& a : v) sums[a[d] > 0] += std::abs(a[d]);
+        const scalar least = std::min(sums[0], sums[1]);
+        for (vector& a : v)
+            if (const scalar sum = sums[a[d] > 0]; sum > 0) a[d] *= least / sum;
+    }
+}
+
+}  // namespace
+
+scalar particleShifting::shift(particleCloud& cloud, const neighbourList& list,
+                              const kernelCorrection& correction, scalar dt, scalar allowance,
+                              const std::function<bool(label)>& leaveAlone) const
+{
+    const scalar way = speed(cloud) * dt, dx = cloud.dx, most = maxShift_ * dx;
+    if (!on() || !(way > 0)) return 0;
+    const scalar alpha = constant_ * way,
+                 beta = closing_ * dx * dx * std::min(way / (inFull * dx), scalar(1));
+    cloud.fillGhosts(cloud.Up, false);
     const label first = cloud.nSolid(), nFluid = cloud.n() - first;
-    List<change> changes(nFluid);
-    parallelFor(nFluid, [&](label begin, label end) {
-        evaluate(rows, first + begin, first + end, &changes[begin]);
-    });
+    List<vector> shifts(nFluid, vector::Zero()), v(nFluid, vector::Zero());
     parallelFor(nFluid, [&](label begin, label end) {
         for (label k = begin; k < end; ++k)
         {
-            cloud.x[first + k].s += changes[k].x.s;
-            cloud.Up[first + k].s += changes[k].Up.s;
+            const label i = first + k;
+            if (list.start[i] == list.start[i + 1] || (leaveAlone && leaveAlone(i))) continue;
+            vector dr = alpha * crowding(cloud, list, i) - beta * slopeOfSum(cloud, list, i);
+            if (const scalar size = dr.norm(); size > most) dr *= most / size;
+            shifts[k] = dr, v[k] = limitedChange(cloud, list, correction.same[i], i, dr);
         }
     });
+    if (cloud.surface.empty()) balance(cloud, v);
+    // b t^2 + a t <= allowance
+    scalar a = 0, b = 0;
+    for (label k = 0; k < nFluid; ++k)
+        a += cloud.Up[first + k].xyz().dot(v[k]), b += 0.5 * v[k].squaredNorm();
+    allowance = std::max(allowance, scalar(0));
+    const scalar root = std::sqrt(a * a + 4 * b * allowance);
+    const scalar t = a + b <= allowance ? 1
+                     : a > 0            ? 2 * allowance / (a + root)
+                                        : (root - a) / (2 * b);
+    for (label k = 0; k < nFluid; ++k)
+    {
+        cloud.x[first + k].s += vec4::from(shifts[k]).s;
+        cloud.Up[first + k].s += t * vec4::from(v[k]).s;
+    }
+    return a * t + b * t * t;
 }
 
 }  // namespace ispf

@@ -18,12 +18,10 @@ struct block
     List<scalar> value;
 };
 
-}  // namespace
-
 class pressureAssembly
 {
 public:
-    pressureAssembly(const stencil& s, pressureEquation& equation) : s_(s), eq_(equation)
+    pressureAssembly(const stencil& s, csrMatrix& A) : s_(s), A_(A)
     {
         images_.build(s.cloud, s.list);
     }
@@ -31,9 +29,7 @@ public:
     void run()
     {
         const label n = s_.cloud.n(), nBlocks = (n + blockRows - 1) / blockRows;
-        eq_.A.diagonal.resize(n), eq_.boundary_.resize(n);
-        eq_.fixed_.resize(n);
-        for (label i = 0; i < n; ++i) eq_.fixed_[i] = s_.cloud.pHeld(i);
+        A_.diagonal.resize(n);
         List<block> part(nBlocks);
         parallelFor(
             nBlocks,
@@ -52,46 +48,44 @@ private:
     void row(label i, block& out)
     {
         const size_t first = out.column.size();
-        scalar diagonal = images_.diagonal[i], boundary = images_.source[i];
+        scalar diagonal = images_.diagonal[i];
         for (std::int64_t k = s_.list.own[i]; k < s_.list.wall[i]; ++k)
         {
             const label j = s_.list.index[k];
             const scalar w = -2 * s_.list.F[k];
             if (j >= s_.cloud.n() || negligible(w, s_.cloud.dx)) continue;
             diagonal += w;
-            add(out, j, -w, boundary);
+            add(out, j, -w);
         }
         const size_t owned = out.column.size();
         for (label k = images_.start[i]; k < images_.start[i + 1]; ++k)
-            addImage(out, {first, owned}, images_.entries[k], boundary);
+            addImage(out, {first, owned}, images_.entries[k]);
 
-        if (eq_.fixed_[i]) out.column.resize(first), out.value.resize(first);
+        if (s_.cloud.pHeld(i)) out.column.resize(first), out.value.resize(first);
         // a particle without neighbours keeps a regular row
-        eq_.A.diagonal[i] = diagonal > 0 ? diagonal : 1 / (s_.cloud.dx * s_.cloud.dx);
-        eq_.boundary_[i] = eq_.fixed_[i] ? eq_.A.diagonal[i] * s_.cloud.heldPressure(i) : boundary;
+        A_.diagonal[i] = diagonal > 0 ? diagonal : 1 / (s_.cloud.dx * s_.cloud.dx);
         out.length.push_back(label(out.column.size() - first));
     }
 
-    void add(block& out, label j, scalar value, scalar& boundary) const
+    void add(block& out, label j, scalar value) const
     {
-        if (eq_.fixed_[j]) boundary -= value * s_.cloud.heldPressure(j);
-        else out.column.push_back(j), out.value.push_back(value);
+        if (!s_.cloud.pHeld(j)) out.column.push_back(j), out.value.push_back(value);
     }
 
     // A source that is also an ordinary neighbour, among [first, owned), has one entry
-    void addImage(block& out, std::pair<size_t, size_t> neighbours, const imageEntries::entry& e,
-                  scalar& boundary) const
+    void addImage(block& out, std::pair<size_t, size_t> neighbours,
+                  const imageEntries::entry& e) const
     {
         const auto from = out.column.begin() + neighbours.first,
                    to = out.column.begin() + neighbours.second;
         const auto found = std::find(from, to, e.column);
         if (found != to) out.value[size_t(found - out.column.begin())] += e.offDiagonal;
-        else add(out, e.column, e.offDiagonal, boundary);
+        else add(out, e.column, e.offDiagonal);
     }
 
     void join(const List<block>& part)
     {
-        csrMatrix& A = eq_.A;
+        csrMatrix& A = A_;
         const label n = s_.cloud.n();
         A.rowStart.assign(n + 1, 0);
         label row = 0;
@@ -113,20 +107,15 @@ private:
     }
 
     const stencil& s_;
-    pressureEquation& eq_;
+    csrMatrix& A_;
     imageEntries images_;
 };
 
-void sphm::laplacian(const stencil& s, pressureEquation& equation)
-{
-    pressureAssembly(s, equation).run();
-}
+}  // namespace
 
-void pressureEquation::setSource(const List<scalar>& f)
+void sphm::laplacian(const stencil& s, csrMatrix& A)
 {
-    const label n = A.size();
-    source.resize(n);
-    for (label i = 0; i < n; ++i) source[i] = boundary_[i] + (fixed_[i] ? 0 : f[i]);
+    pressureAssembly(s, A).run();
 }
 
 }  // namespace ispf

@@ -166,7 +166,7 @@ void neighbourList::build(const particleCloud& cloud, const smoothingKernel& ker
     grid.build(cloud.x, kernel.support());
     List<char> given(cloud.nAll(), 0);
     for (label j = 0; j < cloud.nAll(); ++j)
-        if (const label owner = cloud.ownerOf(j); owner >= 0 && cloud.wallsApart)
+        if (const label owner = cloud.ownerOf(j); owner >= 0)
             given[j] = cloud.velocityGiven(owner);
 
     constexpr label blockRows = 512;

@@ -3,8 +3,9 @@
 // kinds of wall: H = 1 mm, nu = 1e-6 m2/s, F = 1e-4 m/s2 or lid speed 1.25e-5 m/s.
 #include "capturedLog.H"
 #include "channel.H"
+#include "viscousLoss.H"
 #include "particleShifting.H"
-#include "projectionStep.H"
+#include "fractionalStep.H"
 
 #include <doctest/doctest.h>
 
@@ -36,15 +37,17 @@ scalar couette(scalar y, scalar t)
 void advance(channel& ch, const word& viscosity, const vector& force, scalar dt, label nSteps)
 {
     capturedLog log;
-    projectionStep step(1000, 1000 * nu, viscosity, {}, dictionary::fromString(""));
+    fractionalStep step(1000, 1000 * nu, viscosity, dictionary::fromString(""));
     const particleShifting shifting(dictionary::fromString(""));
     const List<vec4> a(ch.cloud.n(), vec4::from(force));
     for (label n = 0; n < nSteps; ++n)
     {
         ch.update();
+        step.setup(ch.cloud, ch.stencil(), *ch.kernel);
         step.predict(ch.cloud, ch.stencil(), a, dt);
         step.project(ch.cloud, ch.stencil(), {}, ch.kernel->support(), dt);
-        shifting.shift(ch.cloud, ch.list, ch.B, dt, nullptr);
+        shifting.shift(ch.cloud, ch.list, ch.B, dt, viscousLoss(ch.cloud, ch.stencil(), nu * dt),
+                       nullptr);
         for (label i = 0; i < ch.cloud.n(); ++i)
             ch.cloud.x[i].s += dt * vec4::from(ch.cloud.Up[i].xyz()).s;
     }

@@ -32,7 +32,7 @@ const List<kindOfPatch> kinds = {
     {"mirror", "type wall; representation mirror;", "type wall; representation mirror;", slip},
     {"slip wall", slip, slip, slip},
     {"sliding wall", "type wall; velocity (0 0.05 0);", "type wall; velocity (0.05 0 0);", slip},
-    {"symmetry", "type symmetryPlane;", "type symmetryPlane;", slip},
+    {"symmetry", "type symmetryPlane;", "type symmetryPlane;", "type symmetryPlane;"},
     {"open", "type open; p 0;", "type open; p 0;", slip},
     {"inlet", "type open; velocity 0.05;", "type open; velocity 0.05;", "type open; p 0;"},
     {"piston", "type wall; motion { velocity (0.01 0 0); }",
@@ -109,8 +109,6 @@ TEST_CASE("corners between all kinds of patches")
                 CAPTURE(a->name);
                 CAPTURE(b->name);
                 boxCase box = cornerOf(*a, *b, coupling);
-                // with the adjoint pair the energy between slip walls ends 0.15 % below that without a boundary
-                box.schemes = a->isFree() && b->isFree() ? "pair corrected;" : "";
                 vortices v(box);
                 scalar fastest = 0;
                 for (int s = 0; s < 12; ++s) v.run(dt, 5), fastest = std::max(fastest, v.fastest());
@@ -123,7 +121,12 @@ TEST_CASE("corners between all kinds of patches")
                     unbounded = e;
                     CHECK(std::log(e) == relative(-4 * nu * k * k * v.time.value(), 0.1));
                 }
-                else if (a->isFree() && b->isFree()) CHECK(e == relative(unbounded, 1e-3));
+                else if (a->isFree() && b->isFree())
+                {
+                    // planes are no boundary; a wall's elements take p as that of the particle, exact to first order in dx
+                    const bool walls = a->name == "slip wall" || b->name == "slip wall";
+                    CHECK(e == relative(unbounded, walls ? 5e-3 : 1e-4));
+                }
                 else if (!a->drives() && !b->drives() && !a->open() && !b->open())
                     CHECK(e < 0.8 * unbounded);  // a wall that holds the fluid takes more out
             }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Both kinds of wall where there is no equivalent problem without one: operators before a mirrored
-// circle, steady shear between plates and steady flow in a pipe must converge with the spacing.
+// Both kinds of wall where there is no equivalent problem without one: steady shear between plates and steady flow in a
+// pipe must converge with the spacing.
 #include "boundary/scene.H"
 #include "caseOnDisk.H"
-#include "sphc.H"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -71,48 +70,6 @@ triSurface tube(scalar radius, scalar dx, scalar z0, scalar z1, bool outward)
         },
         int(std::lround(4 * M_PI * radius / dx)), 2,
         [=](const vector& x) -> vector { return (outward ? 1 : -1) * vector(x[0], x[1], 0); });
-}
-
-struct errors
-{
-    scalar div, grad;
-};
-
-// Fluid inside or outside of a mirrored circle or ball of radius 1 with a flow that does not slip
-errors beforeRound(int nDims, scalar dx, bool inside)
-{
-    folder files;
-    files.surface("wall", nDims == 2 ? tube(1, dx, -dx, dx, inside) : ball(dx, inside));
-    const scalar from = inside ? 0 : 1, to = inside ? 1 : 1.6;
-    particleCloud cloud = fluid(nDims == 2 ? rings(dx, from, to) : shells(dx, from, to), dx, nDims);
-    boundary walls(files.path, dictionary::fromString("wall { type wall; representation mirror; }"),
-                   cloud, 2.6 * dx);
-    walls.setStep(0, 1);
-    for (label i = 0; i < cloud.n(); ++i)
-    {
-        const vector x = cloud.x[i].xyz();
-        const scalar a = 1 - x.squaredNorm();
-        cloud.Up[i] = vec4::from(a * vector(-x[1], x[0], 0) + a * a * x, 3 + a * a);
-    }
-    walls.updateGhosts(cloud);
-    cloud.fillGhosts(cloud.Up, false);
-    neighbourList list;
-    list.build(cloud, *smoothingKernel::New("WendlandC2", nDims, 1.3 * dx), walls.visible(cloud));
-    kernelCorrection B;
-    B.build(cloud, list);
-    const stencil s{cloud, list, B};
-    const List<scalar> div = sphc::div(s, cloud.Up, divergenceScheme::corrected);
-    const List<vec4> grad = sphc::grad(s, cloud.Up, gradientScheme::correctedDifference);
-    errors e = {0, 0};
-    for (label i = 0; i < cloud.n(); ++i)
-    {
-        const vector x = cloud.x[i].xyz();
-        const scalar r2 = x.squaredNorm(), a = 1 - r2;
-        if (r2 > 1.69) continue;  // sees the fluid's outer end
-        e.div = std::max(e.div, std::abs(div[i] - (nDims * a * a - 4 * a * r2)));
-        e.grad = std::max(e.grad, (grad[i].xyz() + 4 * a * x).norm());
-    }
-    return e;
 }
 
 constexpr scalar H = 1e-3, nu = 1e-6, force = 1e-4;
@@ -249,21 +206,6 @@ scalar growthAtRest(scalar dx, scalar from, scalar to)
 }
 
 }  // namespace
-
-TEST_CASE("operators before a mirrored circle or ball converge, on its inside and its outside")
-{
-    for (const int nDims : {2, 3})
-        for (const bool inside : {true, false})
-        {
-            CAPTURE(nDims);
-            CAPTURE(inside);
-            const errors coarse = beforeRound(nDims, 0.1, inside),
-                         fine = beforeRound(nDims, 0.05, inside);
-            CHECK(coarse.div < 0.6);
-            CHECK(fine.div < 0.65 * coarse.div);
-            CHECK(fine.grad < 0.35 * coarse.grad);
-        }
-}
 
 TEST_CASE("steady shear between plates: exact with mirrors, nearly with rigid particles")
 {

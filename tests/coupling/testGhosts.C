@@ -2,7 +2,8 @@
 // Every kind of ghost against the problem without a boundary that it stands for: the rows of all
 // operators equal those of a cloud in which the images are particles like any other.
 #include "boundary/scene.H"
-#include "sphc.H"
+#include "pairSums.H"
+#include "viscousPairs.H"
 #include "smoothingKernel.H"
 
 #include <doctest/doctest.h>
@@ -72,9 +73,18 @@ rows rowsOf(particleCloud& cloud, const neighbourList::visibility& visible)
     kernelCorrection B;
     B.build(cloud, list);
     const stencil s{cloud, list, B};
-    return {sphc::div(s, cloud.Up, divergenceScheme::corrected),
-            sphc::grad(s, cloud.Up, gradientScheme::correctedDifference),
-            sphc::laplacian(s, cloud.Up)};
+    rows result;
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        pairSums sums;
+        sums.add(list, cloud.x.data(), cloud.Up.data(), i, list.start[i], list.start[i + 1]);
+        result.div.push_back(sums.divergence(B.all[i]));
+        result.grad.push_back(vec4::from(B.all[i] * sums.gradient(3)));
+    }
+    viscousPairs viscous;
+    viscous.setup(s);
+    viscous.apply(cloud.Up, result.lap);
+    return result;
 }
 
 bool everywhere(const vector&)

@@ -173,7 +173,6 @@ TEST_CASE("a flow rate that reverses ten times: the channel keeps its volume, wh
                 "type open; profile parabolic; flowRate { type sine; frequency 2.5; "
                 "amplitude 1e-3; scale 1; level 0; t0 0; }");
             b.coupling = coupling;
-            b.schemes = "pair corrected;";  // the adjoint pair: up to 1.3 % more inside
             runningBox r(b);
             for (label i = 0; i < r.c.cloud.n(); ++i)
                 r.c.cloud.x[i][1] += 1e-9 * b.dx * kick * std::sin(1.7 * i + kick);

@@ -44,8 +44,8 @@ struct scene
     void write()
     {
         place();
-        files.solution =
-            "coupling monolithic; monolithic { tolerance 1e-13; absTolerance 0; " + more + " }";
+        files.solution = "coupling monolithic; monolithic { tolerance 1e-13; absTolerance 0; " +
+                         more + " } closure { tolerance 1e-13; }";
         files.properties = "rho 1; mu " + str(mu) + ";";
         files.boundary = quarter ? "l { type symmetryPlane; point (0 0 0); normal (-1 0 0); }"
                                    "r { type symmetryPlane; point (0.5 0 0); normal (1 0 0); }"

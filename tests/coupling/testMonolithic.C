@@ -4,7 +4,7 @@
 #include "caseOnDisk.H"
 #include "luSolver.H"
 #include "monolithicPreconditioner.H"
-#include "monolithicSystem.H"
+#include "coupledSystem.H"
 #include "relative.H"
 #include "triSurface.H"
 
@@ -199,7 +199,7 @@ struct firstStep
     blockMatrix3 K;
     solidSurface surface;
     volumeConstraint volume;
-    monolithicSystem system;
+    coupledSystem system;
 
     explicit firstStep(const ringCase& ring)
         : time(ring.files.path()), c(time), volume(*c.structure), system(c)
@@ -223,7 +223,7 @@ TEST_CASE("the coupled system solved by FGMRES agrees with a direct solution")
     const ringCase ring("monolithicDirect", 1e4);
     firstStep first(ring);
     fsiCase& c = first.c;
-    monolithicSystem& system = first.system;
+    coupledSystem& system = first.system;
     List<vec4> force;
     c.structure->force(c.cloud.x, force);
     monolithicPreconditioner M(system, dictionary());

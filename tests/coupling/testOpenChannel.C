@@ -222,7 +222,7 @@ TEST_CASE("steps far beyond dx^2/nu: what enters a channel leaves it")
             const word wall = "type wall; representation " + kind + ";";
             boxCase b;
             b.patch = {"type open; p 1; backflow 0;", "type open; p 0; backflow 0;", wall, wall};
-            b.coupling = coupling, b.mu = 0.2, b.solution = "densityFeedback 0;";
+            b.coupling = coupling, b.mu = 0.2;
             runningBox r(b);
             const scalar dt = times * b.dx * b.dx * 1000 / b.mu,
                          law = std::pow(b.height(), 3) / (12 * b.mu * b.length());

@@ -165,7 +165,6 @@ TEST_CASE("fluid between slip walls moves with its plunger as one, in and out")
     {
         CAPTURE(coupling);
         caseOnDisk files("plug");
-        files.schemes = "pair corrected;";  // the adjoint pair: 3.6 % of the fastest
         writeChannel(files, coupling, toAndFro);
         capturedLog log;
         Time time(files.path());

@@ -125,7 +125,6 @@ TEST_CASE("vessels of rigid particles that speed up or turn push their fluid in 
     {
         CAPTURE(turns);
         caseOnDisk files("pushed");
-        files.schemes = "pair corrected;";  // the adjoint pair: up to three times as far off
         files.solution = "coupling projection; shifting { type none; }";
         files.boundary = word("drum { type wall; motion { ") +
                          (turns ? "rotation { origin (8e-3 8e-3 0); axis (0 0 1); omega 5; }"

@@ -4,8 +4,8 @@
 #include "relative.H"
 #include "roundSurfaces.H"
 #include "presentState.H"
-#include "sphc.H"
 #include "testCase.H"
+#include "viscousPairs.H"
 
 #include <regex>
 
@@ -63,6 +63,17 @@ struct box : testCase
 vector part(const List<scalar>& row, int which)
 {
     return {row[1 + 3 * which], row[2 + 3 * which], row[3 + 3 * which]};
+}
+
+// Of the velocities
+List<vec4> laplacian(const presentState& s)
+{
+    viscousPairs viscous;
+    viscous.setup({s.cloud, s.list, s.B});
+    List<vec4> lap;
+    viscous.apply(s.cloud.Up, lap);
+    for (vec4& a : lap) a.s *= -2;
+    return lap;
 }
 
 }  // namespace
@@ -137,8 +148,7 @@ TEST_CASE(
     auto r = t.start();
     const presentState s(*r.c);
     vector lost = vector::Zero();
-    for (const vec4& v : sphc::laplacian({s.cloud, s.list, s.B}, s.cloud.Up))
-        lost -= mu * s.cloud.volume() * v.xyz();
+    for (const vec4& v : laplacian(s)) lost -= mu * s.cloud.volume() * v.xyz();
     CHECK((paid - lost).norm() < 1e-9 * lost.norm());
 
     // a solid slab on the floor takes the floor's place
@@ -160,7 +170,7 @@ TEST_CASE(
     const vector byBoth = part(slab.measured("f/0/force.dat"), 2);
     auto q = slab.start();
     const presentState state(*q.c);
-    const List<vec4> lap = sphc::laplacian({state.cloud, state.list, state.B}, state.cloud.Up);
+    const List<vec4> lap = laplacian(state);
     lost = vector::Zero();
     for (label i = state.cloud.nSolid(); i < state.cloud.n(); ++i)
         lost -= mu * state.cloud.volume() * lap[i].xyz();

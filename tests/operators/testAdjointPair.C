@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Properties of the operators of the discrete energy balance, on random fields and disordered particles
 #include "boxWorld.H"
-#include "limitedShifting.H"
+#include "particleShifting.H"
 #include "viscousPairs.H"
 
 #include <doctest/doctest.h>
@@ -169,7 +169,7 @@ TEST_CASE("viscosity takes energy from any flow between walls at rest, as much a
 
 TEST_CASE("shifting makes no new extremum, gains no more energy than it may, and keeps momentum")
 {
-    const limitedShifting shifting(dictionary::fromString("maxShift 0.2;"));
+    const particleShifting shifting(dictionary::fromString("maxShift 0.2;"));
     label withNone = 0;
     for (const unsigned seed : {1, 2, 3, 4})
         for (world& w : worlds(seed))

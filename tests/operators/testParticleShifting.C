@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Energy, momentum and extrema of shifted flows: testAdjointPair.C
+#include "core/errorOf.H"
 #include "particleShifting.H"
 #include "periodicBox.H"
 
@@ -9,8 +11,10 @@ using namespace ispf;
 namespace
 {
 
-// Where shifting takes the particles of a disordered box, seen by an observer who moves at -drift
-List<vec4> shifted(const word& entries, const word& frame, const vector& drift)
+constexpr scalar noLimit = 1e30;
+
+// A disordered box with a flow in it, seen by an observer who moves at -drift
+periodicBox disordered(const vector& drift = vector::Zero())
 {
     periodicBox box(2, 12, 0.2, "WendlandC2", 1.3);
     for (label i = 0; i < box.cloud.n(); ++i)
@@ -19,8 +23,22 @@ List<vec4> shifted(const word& entries, const word& frame, const vector& drift)
         box.cloud.Up[i] = vec4::from(vector(std::sin(x[1]), std::sin(x[0]), 0) + drift);
     }
     box.update();
+    return box;
+}
+
+scalar shift(particleCloud& cloud, const neighbourList& list, const kernelCorrection& B,
+             const word& entries, const std::function<bool(label)>& leaveAlone = nullptr)
+{
+    const particleShifting shifting(dictionary::fromString(entries));
+    return shifting.shift(cloud, list, B, 0.01, noLimit, leaveAlone);
+}
+
+// Where shifting takes the particles
+List<vec4> shifted(const word& entries, const word& frame, const vector& drift)
+{
+    periodicBox box = disordered(drift);
     const particleShifting shifting(dictionary::fromString(entries), frame);
-    shifting.shift(box.cloud, box.list, box.B, 0.01, nullptr);
+    shifting.shift(box.cloud, box.list, box.B, 0.01, noLimit, nullptr);
     return {box.cloud.x.begin(), box.cloud.x.begin() + box.cloud.n()};
 }
 
@@ -30,6 +48,39 @@ scalar difference(const List<vec4>& a, const List<vec4>& b)
     for (size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i].xyz() - b[i].xyz()).norm());
     return most;
 }
+
+enum class below
+{
+    nothing,
+    solid,
+    rigid
+};
+
+// A lattice of fluid with three rows of something else below it, its sides and its top free
+struct column
+{
+    static constexpr scalar dx = 0.1;
+    particleCloud cloud;
+    neighbourList list;
+    kernelCorrection B;
+
+    explicit column(below what)
+    {
+        cloud.nDims = 2, cloud.dx = dx;
+        cloud.zones = {{"solid", phaseType::solid, false}, {"fluid", phaseType::fluid, false}};
+        const auto at = [](int i, int j) -> vector { return dx * vector(i + 0.5, j + 0.5, 0); };
+        const vec4 moves = vec4::from({0, 1, 0});
+        for (int j = -3; j < 8; ++j)
+            for (int i = 0; i < 13; ++i)
+                if (j >= 0) cloud.append(at(i, j), 1, moves, cloud.nextId());
+                else if (what == below::solid) cloud.append(at(i, j), 0, moves, cloud.nextId());
+        for (int j = -3; j < 0 && what == below::rigid; ++j)
+            for (int i = 0; i < 13; ++i) cloud.addRigid(at(i, j), vector::Zero());
+        list.build(cloud, *smoothingKernel::New("WendlandC2", 2, 1.3 * dx));
+        B.build(cloud, list);
+    }
+    label lowest() const { return cloud.nSolid() + 6; }  // fluid, in the middle of its row
+};
 
 }  // namespace
 
@@ -45,4 +96,107 @@ TEST_CASE("by the speed against the mean, shifting is the same for every observe
     CHECK(difference(byAll, shifted(given, "still", drift)) > 1e-3);
     CHECK(difference(shifted(given + "frame still;", "mean", drift),
                      shifted(given, "still", drift)) == 0);
+}
+
+TEST_CASE(
+    "walls and solids are neighbours: fluid stays away from them, and they stay where they are")
+{
+    for (const word entries : {"closing 0;", "constant 0;"})
+        for (const below what : {below::nothing, below::solid, below::rigid})
+        {
+            CAPTURE(entries);
+            CAPTURE(int(what));
+            column c(what);
+            const List<vec4> x = c.cloud.x, Up = c.cloud.Up;
+            shift(c.cloud, c.list, c.B, entries);
+            const label i = c.lowest();
+            const scalar down = x[i][1] - c.cloud.x[i][1];
+            if (what == below::nothing) CHECK(down > 0.01 * column::dx);
+            else CHECK(std::abs(down) < 1e-12 * column::dx);
+            label moved = 0;
+            for (label k = 0; k < c.cloud.nAll(); ++k)
+            {
+                const bool stays = difference({x[k], Up[k]}, {c.cloud.x[k], c.cloud.Up[k]}) == 0;
+                moved += !stays;
+                if (k < c.cloud.nSolid() || k >= c.cloud.n()) CHECK(stays);
+            }
+            CHECK(moved > 20);
+        }
+}
+
+TEST_CASE("a particle moves by maxShift at most, and not at all if it is to be left alone")
+{
+    for (const scalar most : {0.05, 0.02})
+    {
+        periodicBox box = disordered();
+        const List<vec4> x = box.cloud.x, Up = box.cloud.Up;
+        const auto leftAlone = [](label i) { return i % 3 == 0; };
+        shift(box.cloud, box.list, box.B, "constant 1; maxShift " + str(most) + ";", leftAlone);
+        scalar way = 0;
+        for (label i = 0; i < box.cloud.n(); ++i)
+            if (leftAlone(i))
+                CHECK(difference({x[i], Up[i]}, {box.cloud.x[i], box.cloud.Up[i]}) == 0);
+            else way = std::max(way, (box.cloud.x[i].xyz() - x[i].xyz()).norm() / box.cloud.dx);
+        CHECK(way == doctest::Approx(most).epsilon(1e-12));
+    }
+    CHECK(difference(
+              shifted("", "still", vector::Zero()),
+              shifted("constant 0.15; closing 0.7; maxShift 0.05;", "still", vector::Zero())) == 0);
+}
+
+TEST_CASE("in a linear flow a particle takes over the velocity of its new place")
+{
+    Eigen::Matrix<scalar, 4, 3> A = Eigen::Matrix<scalar, 4, 3>::Zero();
+    A.topLeftCorner<2, 2>() << 1.5, -2, 0.5, -3;
+    periodicBox box(2, 12, 0.2, "WendlandC2", 1.3);
+    particleCloud& cloud = box.cloud;
+    box.jump = A;
+    for (label i = 0; i < cloud.n(); ++i)
+        cloud.Up[i] = vec4::from((A * cloud.x[i].xyz()).head<3>());
+    box.update();
+    // where there are walls, nothing has to hold the momentum
+    cloud.surface.push_back({{9, 9, 0}, {1, 0, 0}, {0, 0, 0}, true});
+    const List<vec4> x = cloud.x;
+    shift(cloud, box.list, box.B, "");
+    scalar way = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        CHECK((cloud.Up[i].xyz() - (A * cloud.x[i].xyz()).head<3>()).norm() < 1e-12);
+        way = std::max(way, (cloud.x[i].xyz() - x[i].xyz()).norm());
+    }
+    CHECK(way > 0.01 * cloud.dx);
+}
+
+TEST_CASE("shifting that is off, and fluid at rest, move nothing")
+{
+    for (const word entries : {"type none;", "constant 0; closing 0;"})
+    {
+        CHECK(!particleShifting(dictionary::fromString(entries)).on());
+        CHECK(particleShifting(dictionary::fromString(entries)).describe() == "none");
+        periodicBox box = disordered();
+        const List<vec4> x = box.cloud.x, Up = box.cloud.Up;
+        CHECK(shift(box.cloud, box.list, box.B, entries) == 0);
+        CHECK(difference(x, box.cloud.x) == 0);
+        CHECK(difference(Up, box.cloud.Up) == 0);
+    }
+    CHECK(particleShifting(dictionary::fromString("")).on());
+    CHECK(particleShifting(dictionary::fromString("frame mean;")).describe() ==
+          "Xu, constant 0.15, closing 0.7, at most 0.05 dx, by the speed against the mean");
+    periodicBox rest(2, 12, 0.2, "WendlandC2", 1.3);
+    const List<vec4> x = rest.cloud.x;
+    CHECK(shift(rest.cloud, rest.list, rest.B, "") == 0);
+    CHECK(difference(x, rest.cloud.x) == 0);
+}
+
+TEST_CASE("words and numbers that shifting does not know are refused")
+{
+    const auto given = [](const word& entries) {
+        return particleShifting(dictionary::fromString(entries)).on();
+    };
+    CHECK_ERROR(given("type Lind;"), "Valid", 1);
+    CHECK_ERROR(given("frame moving;"), "Valid", 1);
+    CHECK_ERROR(given("\nconstant 1.1;"), "constant", 2);
+    CHECK_ERROR(given("\nclosing 2.1;"), "closing", 2);
+    CHECK_ERROR(given("maxShift 0.3;"), "maxShift", 1);
+    CHECK_ERROR(given("maxShift -0.1;"), "maxShift", 1);
 }

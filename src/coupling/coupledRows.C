@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "adjointRows.H"
+#include "coupledRows.H"
 
 namespace ispf
 {
@@ -48,7 +48,7 @@ ISPF_HOT void solidStabiliserRange(const neighbourList& list, const vec4* x, con
 
 }  // namespace
 
-void adjointRows::setup(particleCloud& cloud, const neighbourList& list, const kernelCorrection& B,
+void coupledRows::setup(particleCloud& cloud, const neighbourList& list, const kernelCorrection& B,
                         const smoothingKernel& kernel, const volumeConstraint* volume,
                         const solidSurface* surface)
 {
@@ -60,7 +60,7 @@ void adjointRows::setup(particleCloud& cloud, const neighbourList& list, const k
     viscous_.setup({cloud, list, B});
 }
 
-void adjointRows::setTau(const List<scalar>& tau, scalar fluidTau)
+void coupledRows::setTau(const List<scalar>& tau, scalar fluidTau)
 {
     fluidTau_ = fluidTau;
     const label nSolid = cloud_->nSolid();
@@ -76,7 +76,7 @@ void adjointRows::setTau(const List<scalar>& tau, scalar fluidTau)
     });
 }
 
-void adjointRows::gradient(const List<vec4>& phi, List<vec4>& gp) const
+void coupledRows::gradient(const List<vec4>& phi, List<vec4>& gp) const
 {
     gp.resize(cloud_->n());
     pair_.gradient(phi, gp);
@@ -84,7 +84,7 @@ void adjointRows::gradient(const List<vec4>& phi, List<vec4>& gp) const
 }
 
 // gp of the solid's rows: the forces of the constraint's pressure and of the fluid's load, per volume, for phi = {.., p}
-void adjointRows::solidGradient(const List<vec4>& phi, List<vec4>& gp) const
+void coupledRows::solidGradient(const List<vec4>& phi, List<vec4>& gp) const
 {
     if (!volume_) return;
     surface_->loads(phi, load_, stress_);
@@ -95,7 +95,7 @@ void adjointRows::solidGradient(const List<vec4>& phi, List<vec4>& gp) const
         gp[i] = vec4::from(perVolume * (load_[i].xyz() - force_[i].xyz()));
 }
 
-void adjointRows::divergence(const List<vec4>& phi, List<scalar>& div) const
+void coupledRows::divergence(const List<vec4>& phi, List<scalar>& div) const
 {
     div.resize(cloud_->n());
     pair_.divergence(phi, div);
@@ -105,7 +105,7 @@ void adjointRows::divergence(const List<vec4>& phi, List<scalar>& div) const
     surface_->addFlux(phi, dF_, div);
 }
 
-void adjointRows::solidStabiliser(List<vec4>& gs, List<scalar>& cp) const
+void coupledRows::solidStabiliser(List<vec4>& gs, List<scalar>& cp) const
 {
     cp.resize(cloud_->n());
     if (!volume_) return;
@@ -117,7 +117,7 @@ void adjointRows::solidStabiliser(List<vec4>& gs, List<scalar>& cp) const
     });
 }
 
-void adjointRows::continuity(const List<vec4>& phi, List<vec4>& gs, List<scalar>& rows) const
+void coupledRows::continuity(const List<vec4>& phi, List<vec4>& gs, List<scalar>& rows) const
 {
     const label n = cloud_->n(), nSolid = cloud_->nSolid();
     m_.resize(n), direct_.resize(n);

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupledSystem.H"
+
+namespace ispf
+{
+
+void coupledSystem::book(const List<vec4>& before, scalar theta, const List<vec4>& springForce,
+                         const List<scalar>& q, energyLedger& energy) const
+{
+    const List<vec4> drop = gradientOfDrops();
+    phi_ = c_.cloud.Up;
+    phi_.resize(c_.cloud.nAll());
+    enclosed_.dropLevel(phi_);
+    c_.cloud.fillGhosts(phi_, false);
+    rows_.gradient(phi_, gp_);
+    rows_.viscous().apply(phi_, lap_);
+    bookMomentum(before, springForce, drop, energy);
+    bookPressure(before, theta, q, drop, energy);
+}
+
+// (7.1) times dt u', over the rows that the ledger counts, without the step's first line
+void coupledSystem::bookMomentum(const List<vec4>& before, const List<vec4>& springForce,
+                                 const List<vec4>& drop, energyLedger& energy) const
+{
+    const particleCloud& cloud = c_.cloud;
+    const scalar V = cloud.volume(), m = c_.rho * V;
+    List<vec4> spring(springForce);
+    if (K_)
+    {
+        Ku_.resize(cloud.nSolid());
+        K_->apply(phi_, Ku_);
+        for (label i = 0; i < cloud.nSolid(); ++i) spring[i].s -= dt_ * Ku_[i].s;
+    }
+    scalar forced = 0, left = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        if (!cloud.isFree(i)) continue;
+        const vector u = phi_[i].xyz(), gained = u - before[i].xyz();
+        vector force = vector::Zero();
+        if (!c_.bodyForce.empty())
+            force += m * (c_.bodyForce[cloud.zone[i]] - hydrostatic_.acceleration());
+        if (!drop.empty()) force -= V * drop[i].xyz();
+        vector rest = viscousFactor() * lap_[i].xyz() + V * gp_[i].xyz() - force;
+        if (!drop.empty()) rest -= V * drop[i].xyz();  // it is in gp_ already
+        if (i < label(spring.size())) rest -= spring[i].xyz();
+        forced += dt_ * u.dot(force);
+        left += u.dot(m * gained + dt_ * rest);
+    }
+    energy.bookFriction(rows_.viscous().powerOf(phi_), dt_ * c_.mu * V);
+    energy[energyLedger::forces] += forced;
+    energy[energyLedger::solver] += left;
+    energy.bookSprings(spring, dt_);
+}
+
+// (7.2) times p': what the pressure does, row by row of continuity
+void coupledSystem::bookPressure(const List<vec4>& before, scalar theta, const List<scalar>& q,
+                                 const List<vec4>& drop, energyLedger& energy) const
+{
+    const particleCloud& cloud = c_.cloud;
+    List<scalar> div, rows;
+    rows_.divergence(phi_, div);
+    List<vec4> gs;
+    stabiliserGradient(gp_, gs);
+    for (const auto& [g, offset] : pressureOffsets()) gs[g][3] += offset;
+    rows_.continuity(phi_, gs, rows);
+    addSolidMemory(before, theta, rows);
+    const scalar level = energy.level(phi_);
+    const List<scalar>&all = rows_.pair().wallFlux(), &faces = rows_.pair().faceFlux();
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        const scalar face = faces.empty() ? 0 : faces[i];
+        const vector g = gp_[i].xyz() - (drop.empty() ? vector(vector::Zero()) : drop[i].xyz());
+        energy.bookRow(i, {phi_[i][3], rows[i] - div[i], rows[i] + all[i], q[i], all[i], face, g},
+                       level, dt_);
+    }
+}
+
+}  // namespace ispf
