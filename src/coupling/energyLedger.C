@@ -151,6 +151,9 @@ std::pair<scalar, scalar> energyLedger::fromNothing() const
 {
     scalar gained = left_, of = end_[kinetic] + begin_[kinetic];
     for (int t = viscosity; t < nTerms; ++t) gained += terms_[t];
+    // what has changed before the step, e.g. by hand between two runs, is not of its making
+    gained -= begin_[elastic] - last_[elastic];
+    if (!c_.walls->hasOpen()) gained -= begin_[kinetic] - last_[kinetic];
     for (int t = 0; t < nTerms; ++t) of += std::abs(terms_[t]);
     return {gained, of};
 }

@@ -15,7 +15,7 @@
 //     dissipated, wallWork, openWork    their integrals since the case began, by the trapezoidal rule over the steps
 //                   at which it is executed
 //
-// These are measured on the state that there is.  With `pair adjoint` the energy ledger's terms follow, walls to leftOver, as
+// These are measured on the state that there is.  The energy ledger's terms follow, walls to leftOver, as
 // the steps have summed them (energyLedger.H): kinetic + elastic + potential is what it was at the start plus their sum.
 #include "functionObject.H"
 

@@ -10,7 +10,8 @@ namespace ispf
 namespace
 {
 
-constexpr scalar parts = 4;  // of the extent: L/4 in (3.15), doc/constants.md
+constexpr scalar unsure = 0.03;  // place of the faces of the cut [dx], doc/constants.md
+constexpr scalar parts = 4;      // of the extent: L/4 in (3.15), doc/constants.md
 
 // Largest side of the box around those particles of which isOf(i) is true
 template <class IsOf>
@@ -54,8 +55,9 @@ void densityFeedback::addTo(List<scalar>& q, const adjointPair& pair, const List
             if (cells[k] != 0)
                 room += cells[k], ++n, speed += cloud_.Up[cloud_.nSolid() + k].xyz().norm();
         if (n == 0) continue;
-        const scalar e = 1 - room / n;
-        const scalar w = constant_ * speed / n * parts / extent(cloud_, counts);
+        const scalar L = extent(cloud_, counts), all = 1 - room / n, band = unsure * cloud_.dx / L;
+        const scalar e = all - std::clamp(all, -band, band);
+        const scalar w = constant_ * speed / n * parts / L;
         source_[z] += (1 - std::exp(-4 * w * dt)) * (w * e - source_[z]);
         for (label i = cloud_.nSolid(); i < cloud_.n(); ++i)
             if (counts(i)) q[i] = source_[z], added_ += source_[z] * cloud_.volume();

@@ -43,7 +43,7 @@ ISPF_INLINE vector slopeOfSum(const particleCloud& cloud, const neighbourList& l
 particleShifting::particleShifting(const dictionary& dict, const word& frame)
 {
     if (dict.chooseOrDefault("type", {"Xu", "none"}, "Xu") == "none") return;
-    constant_ = dict.getInRangeOrDefault("constant", 0, 1, 0.15);
+    constant_ = dict.getInRangeOrDefault("constant", 0, 1, 0.2);
     closing_ = dict.getInRangeOrDefault("closing", 0, 2, 0.7);
     maxShift_ = dict.getInRangeOrDefault("maxShift", 0, 0.2, 0.05);
     againstMean_ = dict.chooseOrDefault("frame", {"still", "mean"}, frame) == "mean";
@@ -80,54 +80,74 @@ word particleShifting::describe() const
 namespace
 {
 
-// dr.grad u, each component within the range of the neighbours'
+// dr.grad u, in its own direction within the range of the neighbours'
 vector limitedChange(const particleCloud& cloud, const neighbourList& list, const tensor& B,
                      label i, const vector& dr)
 {
     const simd4 ui = cloud.Up[i].s;
-    simd4 gx = {}, gy = {}, gz = {}, low = {}, high = {};
+    simd4 gx = {}, gy = {}, gz = {};
     for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
     {
         const label j = list.index[k];
         const simd4 g = list.F[k] * (cloud.x[i].s - cloud.x[j].s), e = cloud.Up[j].s - ui;
         gx += e * g[0], gy += e * g[1], gz += e * g[2];
-        low = e < low ? e : low, high = e > high ? e : high;
-    }
-    // a mirror image is as far beyond the wall as its source before it
-    for (std::int64_t k = list.wall[i]; k < list.start[i + 1]; ++k)
-    {
-        const label j = list.index[k];
-        const scalar part = cloud.phase[j] == phaseType::mirror ? 0.5 : 1;
-        const simd4 e = part * (cloud.Up[j].s - ui);
-        low = e < low ? e : low, high = e > high ? e : high;
     }
     const vector w = B.transpose() * dr;
     const simd4 change = w[0] * gx + w[1] * gy + w[2] * gz;
-    vector v;
-    for (int d = 0; d < 3; ++d) v[d] = std::clamp(change[d], low[d], high[d]);
-    return v;
+    const vector v(change[0], change[1], change[2]);
+    const scalar size = v.norm();
+    if (size == 0) return v;
+    const vector along = v / size;
+    scalar high = 0;
+    const auto differs = [&](std::int64_t k) {
+        return along.dot(cloud.Up[list.index[k]].xyz() - cloud.Up[i].xyz());
+    };
+    for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k) high = std::max(high, differs(k));
+    // a mirror image is as far beyond the wall as its source before it
+    for (std::int64_t k = list.wall[i]; k < list.start[i + 1]; ++k)
+        high = std::max(high,
+                        (cloud.phase[list.index[k]] == phaseType::mirror ? 0.5 : 1) * differs(k));
+    return std::min(size, high) * along;
 }
 
-// Positive or negative entries of each component are reduced until their sum is zero; not along what symmetry planes turn
+// Shortens v so that their sum is zero along directions that symmetry planes do not turn: by (1 - m.v/|v|) where that is
+// below one, with the m for which the sum is zero (Newton; the equation is linear between the signs of m.v)
 void balance(const particleCloud& cloud, List<vector>& v)
 {
     const tensor free = cloud.freeDirections();
-    for (int d = 0; d < 3; ++d)
+    vector m = vector::Zero();
+    const auto part = [&](const vector& a, scalar size) {
+        return std::clamp(m.dot(a) / size, scalar(0), scalar(1));
+    };
+    for (int iteration = 0; iteration < 30; ++iteration)
     {
-        if (free(d, d) < 1 - 1e-9) continue;
-        scalar sums[2] = {0, 0};
-        for (const vector& a : v) sums[a[d] > 0] += std::abs(a[d]);
-        const scalar least = std::min(sums[0], sums[1]);
-        for (vector& a : v)
-            if (const scalar sum = sums[a[d] > 0]; sum > 0) a[d] *= least / sum;
+        vector sum = vector::Zero();
+        tensor slope = tensor::Zero();
+        scalar lengths = 0;
+        for (const vector& a : v)
+        {
+            const scalar size = a.norm();
+            if (size == 0) continue;
+            const scalar p = part(a, size);
+            sum += (1 - p) * a, lengths += size;
+            if (p > 0 || iteration == 0)
+                slope += (iteration == 0 ? 0.5 : 1) / size * a * a.transpose();
+        }
+        sum = free * sum;
+        if (!(sum.norm() > 1e-15 * lengths)) break;
+        slope = free * slope * free + lengths * (tensor::Identity() - free) +
+                1e-12 * lengths * tensor::Identity();
+        m += slope.ldlt().solve(sum);
     }
+    for (vector& a : v)
+        if (const scalar size = a.norm(); size > 0) a *= 1 - part(a, size);
 }
 
 }  // namespace
 
 scalar particleShifting::shift(particleCloud& cloud, const neighbourList& list,
-                              const kernelCorrection& correction, scalar dt, scalar allowance,
-                              const std::function<bool(label)>& leaveAlone) const
+                               const kernelCorrection& correction, scalar dt, scalar allowance,
+                               const std::function<bool(label)>& leaveAlone) const
 {
     const scalar way = speed(cloud) * dt, dx = cloud.dx, most = maxShift_ * dx;
     if (!on() || !(way > 0)) return 0;

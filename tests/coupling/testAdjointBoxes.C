@@ -54,14 +54,16 @@ scalar closestPair(const fsiCase& c)
     scalar least = 1e30;
     for (label i = 0; i < c.cloud.n(); ++i)
         for (std::int64_t k = c.list.start[i]; k < c.list.mid[i]; ++k)
-            least = std::min(
-                least, (c.cloud.x[i].xyz() - c.cloud.x[c.list.index[k]].xyz()).norm() / dx);
+            least = std::min(least,
+                             (c.cloud.x[i].xyz() - c.cloud.x[c.list.index[k]].xyz()).norm() / dx);
     return least;
 }
 
 }  // namespace
 
-TEST_CASE("with the adjoint pair a flow that is not resolved gains no energy and keeps its particles apart")
+TEST_CASE(
+    "with the adjoint pair a flow that is not resolved gains no energy and keeps its particles "
+    "apart")
 {
     for (const flow& f : flows)
         for (const word coupling : {"monolithic", "projection"})
@@ -74,7 +76,7 @@ TEST_CASE("with the adjoint pair a flow that is not resolved gains no energy and
                 files.fill(across, across, dx);
                 particleTable& t = files.particles();
                 for (size_t i = 0; i < t.x.size(); ++i) t.vectors["U"][i] = f.velocity(t.x[i]);
-                files.schemes = "pair adjoint; kernel WendlandC2; hByDx 1.3;";
+                files.schemes = "kernel WendlandC2; hByDx 1.3;";
                 files.solution = "coupling " + coupling + ";";
                 files.properties = "rho 1; mu " + str(dx / cellReynolds) + ";";
                 files.boundary = f.boundary;

@@ -141,7 +141,7 @@ TEST_CASE("a particle moves by maxShift at most, and not at all if it is to be l
     }
     CHECK(difference(
               shifted("", "still", vector::Zero()),
-              shifted("constant 0.15; closing 0.7; maxShift 0.05;", "still", vector::Zero())) == 0);
+              shifted("constant 0.2; closing 0.7; maxShift 0.05;", "still", vector::Zero())) == 0);
 }
 
 TEST_CASE("in a linear flow a particle takes over the velocity of its new place")
@@ -181,7 +181,7 @@ TEST_CASE("shifting that is off, and fluid at rest, move nothing")
     }
     CHECK(particleShifting(dictionary::fromString("")).on());
     CHECK(particleShifting(dictionary::fromString("frame mean;")).describe() ==
-          "Xu, constant 0.15, closing 0.7, at most 0.05 dx, by the speed against the mean");
+          "Xu, constant 0.2, closing 0.7, at most 0.05 dx, by the speed against the mean");
     periodicBox rest(2, 12, 0.2, "WendlandC2", 1.3);
     const List<vec4> x = rest.cloud.x;
     CHECK(shift(rest.cloud, rest.list, rest.B, "") == 0);
