@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `pair adjoint`: flows that dx does not resolve lose energy, step by step, and keep their particles apart
+// Flows that dx does not resolve lose energy, step by step, and keep their particles apart
 // (doc/theory/2-operators.md, 7-monolithic.md)
 #include "caseOnDisk.H"
 #include "relative.H"
