@@ -10,6 +10,7 @@ namespace ispf
 namespace
 {
 
+constexpr scalar unknown = 2;    // of e_start
 constexpr scalar unsure = 0.03;  // place of the faces of the cut [dx], doc/constants.md
 constexpr scalar parts = 4;      // of the extent: L/4 in (3.15), doc/constants.md
 
@@ -30,14 +31,25 @@ densityFeedback::densityFeedback(const dictionary& solution, const particleCloud
 {
 }
 
+// Are the areas of all faces known that drain zone z?
+bool densityFeedback::areasKnown(label z) const
+{
+    for (label i = cloud_.nSolid(); i < cloud_.n(); ++i)
+        if (const label strip = cloud_.stripOf(i);
+            strip > 0 && cloud_.zone[i] == z && !cloud_.stripArea[strip].allFinite())
+            return false;
+    return true;
+}
+
 void densityFeedback::addTo(List<scalar>& q, const adjointPair& pair, const List<char>& drained,
                             scalar dt)
 {
     added_ = 0;
-    source_.clear();
-    if (const auto known = cloud_.history.find(drainedZones); known != cloud_.history.end())
-        source_ = known->second;
-    source_.resize(cloud_.zones.size(), 0);
+    states_.assign(cloud_.zones.size(), {unknown, 0});
+    if (const auto known = cloud_.history.find(drainedZones);
+        known != cloud_.history.end() && known->second.size() == 2 * states_.size())
+        for (size_t z = 0; z < states_.size(); ++z)
+            states_[z] = {known->second[2 * z], known->second[2 * z + 1]};
     for (label z = 0; z < label(cloud_.zones.size()); ++z)
     {
         if (cloud_.zones[z].phase != phaseType::fluid) continue;
@@ -55,12 +67,20 @@ void densityFeedback::addTo(List<scalar>& q, const adjointPair& pair, const List
             if (cells[k] != 0)
                 room += cells[k], ++n, speed += cloud_.Up[cloud_.nSolid() + k].xyz().norm();
         if (n == 0) continue;
-        const scalar L = extent(cloud_, counts), all = 1 - room / n, band = unsure * cloud_.dx / L;
+        zoneState& state = states_[z];
+        if (!areasKnown(z))
+        {
+            state.source = 0;
+            continue;
+        }
+        if (state.start == unknown) state.start = 1 - room / n;
+        const scalar L = extent(cloud_, counts), all = 1 - room / n - state.start,
+                     band = unsure * cloud_.dx / L;
         const scalar e = all - std::clamp(all, -band, band);
         const scalar w = constant_ * speed / n * parts / L;
-        source_[z] += (1 - std::exp(-4 * w * dt)) * (w * e - source_[z]);
+        state.source += (1 - std::exp(-4 * w * dt)) * (w * e - state.source);
         for (label i = cloud_.nSolid(); i < cloud_.n(); ++i)
-            if (counts(i)) q[i] = source_[z], added_ += source_[z] * cloud_.volume();
+            if (counts(i)) q[i] = state.source, added_ += state.source * cloud_.volume();
     }
 }
 
@@ -70,7 +90,9 @@ void densityFeedback::book(particleCloud& cloud, scalar dt) const
     List<scalar>& booked = cloud.history[fluidFeedback];
     booked.resize(1, 0);
     booked[0] += added_ * dt;
-    cloud.history[drainedZones] = source_;
+    List<scalar>& states = cloud.history[drainedZones];
+    states.clear();
+    for (const zoneState& s : states_) states.push_back(s.start), states.push_back(s.source);
 }
 
 }  // namespace ispf
