@@ -144,14 +144,20 @@ tensor adjointPair::momentOf(label i) const
 {
     tensor sum = moment_[i];
     for (std::int64_t k = list_->start[i]; k < (*within_.end)[i]; ++k)
-        sum += faces_.a[k].xyz() *
-               (cloud_->x[list_->index[k]].xyz() - cloud_->x[i].xyz()).transpose();
+        sum +=
+            faces_.a[k].xyz() * (cloud_->x[list_->index[k]].xyz() - cloud_->x[i].xyz()).transpose();
     return sum;
 }
 
 scalar adjointPair::cell(label i) const
 {
-    return momentOf(i).trace() / cloud_->nDims;
+    scalar sum = moment_[i].trace();
+    for (std::int64_t k = list_->start[i]; k < (*within_.end)[i]; ++k)
+    {
+        const simd4 s = faces_.a[k].s * (cloud_->x[list_->index[k]].s - cloud_->x[i].s);
+        sum += s[0] + s[1] + s[2];
+    }
+    return sum / cloud_->nDims;
 }
 
 // The arms to elements that p goes on linearly to make good what the fit leaves of (2.5): (3.13)

@@ -221,7 +221,7 @@ public:
         takeInside(), fillB();
     }
 
-    // psi of (2.4), by conjugate gradients with the diagonal
+    // psi of (2.4) and (4.10), by conjugate gradients; the diagonal and the Laplacian over blocks precondition them
     void close(const List<vec4>& b, scalar tolerance, faceVectors::closure& result)
     {
         constexpr int most = 200;
@@ -233,16 +233,12 @@ public:
         const List<scalar> diagonal = graphDiagonal();
         forRanges([&](label i, label end) { openRange(sight(), b.data(), i, end, r.data()); });
         forMedium([&](label i) { r[i].s *= -inSpace; });
+        const view v = sight();
+        sumStrips(r, [&](label i, label j, scalar w) {
+            return -w * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j));
+        });
         for (const strip& s : strips_)
-        {
-            for (const label i : s.members)
-                r[i].s = overStrip(i, [&](label j, scalar w) {
-                    return -w *
-                           (sight().corrected(i, j, sight().way(i, j)) + sight().closing(i, j));
-                });
-            const simd4 sum = total(s, r) - s.half.s;
-            for (const label i : s.members) r[i].s = sum;
-        }
+            for (const label i : s.members) r[i].s -= s.half.s;
         const auto holds = [&](label i) { return (closed_[i] ? level : stripLevel) * diagonal[i]; };
         forMedium([&](label i) { r[i].s -= holds(i) * psi_[i].s; });
         keepFree(r);
@@ -279,13 +275,7 @@ public:
         {
             fill(p);
             forRanges([&](label i, label end) { graphRange(sight(), p.data(), i, end, q.data()); });
-            for (const strip& s : strips_)
-            {
-                for (const label i : s.members)
-                    q[i].s = overStrip(i, [&](label j, scalar w) { return w * (p[i].s - p[j].s); });
-                const simd4 sum = total(s, q);
-                for (const label i : s.members) q[i].s = sum;
-            }
+            sumStrips(q, [&](label i, label j, scalar w) { return w * (p[i].s - p[j].s); });
             forMedium([&](label i) { q[i].s += holds(i) * p[i].s; });
             keepFree(q);
             const scalar pq = dot(p, q);
@@ -390,15 +380,19 @@ private:
         for (const label i : s.members) sum += f[i].s;
         return sum;
     }
-    // Sum of term(j, w_ij) over the neighbours of a strip's particle that are in no strip
+    // f of a strip's members: the sum of term(i, j, w_ij) over its pairs with particles that are in no strip
     template <class Term>
-    simd4 overStrip(label i, Term&& term) const
+    void sumStrips(List<vec4>& f, Term&& term) const
     {
-        simd4 sum = {};
-        for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
-            if (const label j = list_.index[k]; !isStrip(cloud_.ownerOf(j)))
-                sum += term(j, -list_.F[k]);
-        return sum;
+        for (const strip& s : strips_)
+        {
+            simd4 sum = {};
+            for (const label i : s.members)
+                for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
+                    if (const label j = list_.index[k]; !isStrip(cloud_.ownerOf(j)))
+                        sum += term(i, j, -list_.F[k]);
+            for (const label i : s.members) f[i].s = sum;
+        }
     }
     // Nothing of particles that are not closed; of strips nothing that symmetry planes turn
     void keepFree(List<vec4>& f) const
@@ -406,8 +400,7 @@ private:
         const tensor free = cloud_.freeDirections();
         forMedium([&](label i) {
             if (closed_[i]) return;
-            const bool inStrip = weight_[i] < 1 || isStrip(i);
-            f[i] = inStrip ? vec4::from(free * f[i].xyz()) : vec4{};
+            f[i] = isStrip(i) ? vec4::from(free * f[i].xyz()) : vec4{};
         });
     }
     bool isStrip(label i) const
