@@ -199,20 +199,32 @@ void adjointPair::addDrag(const List<tensor>& one, const List<vec4>& drag, List<
         if (besideWall_[i]) flux[i] += wallPart(v, h_.data(), i);
 }
 
-// Mean over the medium of term(i), along free directions
+// Twice the mean over each body of term(i, d), along free directions
 template <class Term>
-vec4 adjointPair::common(const Term& term) const
+List<vec4> adjointPair::twiceMean(const Term& term) const
 {
+    const connectedBodies& bodies = faces_.bodies;
     const label first = within_.first;
-    if (free_.isZero(0)) return vec4{};
-    vector sum = vector::Zero();
-    for (int d = 0; d < cloud_->nDims; ++d)
-        sum[d] = parallelSum(cloud_->n() - first, [&](label begin, label end) {
-            scalar s = 0;
-            for (label i = first + begin; i < first + end; ++i) s += term(i, d);
-            return s;
-        });
-    return vec4::from(free_ * sum / scalar(cloud_->n() - first));
+    List<vec4> mean(bodies.n);
+    if (free_.isZero(0)) return mean;
+    const auto sums = [&](label begin, label end) {
+        List<vec4> sum(bodies.n);
+        for (label i = first + begin; i < first + end; ++i)
+        {
+            vec4& s = sum[bodies.of[i]];
+            for (int d = 0; d < cloud_->nDims; ++d) s[d] += term(i, d);
+            s[3] += 1;
+        }
+        return sum;
+    };
+    const List<List<vec4>> parts = parallelParts(cloud_->n() - first, sums);
+    for (label body = 0; body < bodies.n; ++body)
+    {
+        simd4 sum = {};
+        for (const List<vec4>& part : parts) sum += part[body].s;
+        mean[body] = vec4::from(free_ * vec4{2 * sum / sum[3]}.xyz());
+    }
+    return mean;
 }
 
 // Faces to fluid beyond an open face whose velocity is given: elements of a wall that moves so, with p linear to it.
@@ -282,11 +294,11 @@ void adjointPair::gradient(const List<vec4>& phi, List<vec4>& gp) const
     const label first = within_.first;
     const view v{*list_, within_.end->data(), cloud_->x.data(), faces_.a.data()};
     const List<vec4>& c = faces_.left;
-    const simd4 all = 2 * common([&](label i, int d) { return c[i][d] * phi[i][3]; }).s;
+    const List<vec4> all = twiceMean([&](label i, int d) { return c[i][d] * phi[i][3]; });
     parallelFor(cloud_->n() - first, [&](label begin, label end) {
         begin += first, end += first;
         gradientRange(v, phi.data(), begin, end, gp.data());
-        for (label i = begin; i < end; ++i) gp[i].s += all;
+        for (label i = begin; i < end; ++i) gp[i].s += all[faces_.bodies.of[i]].s;
         for (label i = begin; i < end; ++i)
             if (linearRow_[i] >= 0)
             {
@@ -309,13 +321,13 @@ void adjointPair::divergence(const List<vec4>& u, List<scalar>& div) const
         cloud_->fillGradientGhosts(h_);
     }
     const List<vec4>& c = faces_.left;
-    const simd4 all = 2 * common([&](label i, int d) { return u[i][d]; }).s;
+    const List<vec4> all = twiceMean([&](label i, int d) { return u[i][d]; });
     parallelFor(n - first, [&](label begin, label end) {
         begin += first, end += first;
         divergenceRange(v, u.data(), begin, end, div.data());
         for (label i = begin; i < end; ++i)
         {
-            const simd4 open = all * c[i].s;
+            const simd4 open = all[faces_.bodies.of[i]].s * c[i].s;
             div[i] -= open[0] + open[1] + open[2];
         }
         for (label i = begin; i < end; ++i)

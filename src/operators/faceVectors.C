@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace ispf
@@ -150,6 +149,7 @@ public:
         : cloud_(cloud), list_(list), within_(within), B_(cloud.nAll()), psi_(cloud.nAll())
     {
         poor_.assign(cloud.n(), 0), closed_.assign(cloud.n(), 0), share_.assign(cloud.nAll(), 1);
+        bodies_ = connectedBodies(cloud, list, within);
         gatherStrips();
     }
 
@@ -241,7 +241,7 @@ public:
             for (const label i : s.members) r[i].s -= s.half.s;
         const auto holds = [&](label i) { return (closed_[i] ? level : stripLevel) * diagonal[i]; };
         forMedium([&](label i) { r[i].s -= holds(i) * psi_[i].s; });
-        keepFree(r);
+        keepFree(r), removeSums(r);
         const coarseLevel coarse = makeCoarse(diagonal);
         const auto ofBlocks = [&] {  // what the blocks lack, z = P A_c^-1 P^T r
             List<Eigen::Vector3d> at(coarse.n, Eigen::Vector3d::Zero());
@@ -277,7 +277,7 @@ public:
             forRanges([&](label i, label end) { graphRange(sight(), p.data(), i, end, q.data()); });
             sumStrips(q, [&](label i, label j, scalar w) { return w * (p[i].s - p[j].s); });
             forMedium([&](label i) { q[i].s += holds(i) * p[i].s; });
-            keepFree(q);
+            keepFree(q), removeSums(q);
             const scalar pq = dot(p, q);
             if (!(pq > 0)) break;
             const scalar alpha = rz / pq;
@@ -330,19 +330,21 @@ public:
     }
 
     const List<char>& poor() const { return poor_; }
-    // Once closed.  Less its mean, which is zero but where fluid is open: a level of p has no gradient
+    const connectedBodies& bodies() const { return bodies_; }
+    // Once closed.  Less its mean over each body, so that a level of p has no gradient
     List<vec4> left(const List<vec4>& b, faceVectors::closure& result) const
     {
         List<vec4> c(cloud_.n(), vec4{});
         forRanges([&](label i, label end) { openRange(sight(), b.data(), i, end, c.data()); });
-        simd4 mean = {};
         label nClosed = 0;
         scalar squares = 0;
         for (label i = within_.first; i < cloud_.n(); ++i)
-            if (closed_[i]) mean += c[i].s, squares += squareOf(c[i]), ++nClosed;
-        if (nClosed > 0) mean /= scalar(nClosed), squares /= nClosed;
-        result.defect = cloud_.dx * std::sqrt(squares);
-        forMedium([&](label i) { c[i].s = closed_[i] ? c[i].s - mean : simd4{}; });
+        {
+            if (closed_[i]) squares += squareOf(c[i]), ++nClosed;
+            else c[i] = vec4{};
+        }
+        result.defect = cloud_.dx * std::sqrt(squares / std::max<label>(1, nClosed));
+        removeSums(c, false);
         return c;
     }
 
@@ -373,6 +375,21 @@ private:
             for (const label i : strips_[k].members)
                 weight_[i] = 1 / scalar(strips_[k].members.size());
         }
+    }
+    // The mean over each body from f of what is closed: areas of a boundary that do not add up have no cell to go to.
+    // A strip takes what is left of its body
+    void removeSums(List<vec4>& f, bool keepsStrips = true) const
+    {
+        List<simd4> sum(bodies_.n, simd4{});
+        List<label> count(bodies_.n, 0);
+        for (label i = within_.first; i < cloud_.n(); ++i)
+            if (closed_[i]) sum[bodies_.of[i]] += f[i].s, ++count[bodies_.of[i]];
+        for (const strip& s : strips_)
+            if (keepsStrips && !s.members.empty()) count[bodies_.of[s.members.front()]] = 0;
+        forMedium([&](label i) {
+            if (const label body = bodies_.of[i]; closed_[i] && count[body] > 0)
+                f[i].s -= sum[body] / scalar(count[body]);
+        });
     }
     static simd4 total(const strip& s, const List<vec4>& f)
     {
@@ -431,33 +448,27 @@ private:
         const scalar count = scalar(cloud_.n() - within_.first);
         const scalar edge =
             cloud_.dx * std::pow(std::max(leastInBlock, count / mostBlocks), 1.0 / cloud_.nDims);
-        std::map<std::array<label, 3>, label> blocks;
+        std::map<std::array<label, 4>, label> blocks;
         for (label i = within_.first; i < cloud_.n(); ++i)
         {
-            std::array<label, 3> key = {-std::numeric_limits<label>::max(), cloud_.stripOf(i), 0};
+            std::array<label, 4> key = {-1, cloud_.stripOf(i), 0, 0};
             if (closed_[i])
-                for (int d = 0; d < 3; ++d) key[d] = label(std::floor(cloud_.x[i][d] / edge));
+            {
+                key[0] = bodies_.of[i];
+                for (int d = 0; d < 3; ++d) key[d + 1] = label(std::floor(cloud_.x[i][d] / edge));
+            }
             else if (!isStrip(i)) continue;
             coarse.of[i] = blocks.try_emplace(key, label(blocks.size())).first->second;
         }
         coarse.n = label(blocks.size());
-        constexpr label nParts = 16;
-        const label rows = cloud_.n() - within_.first;
-        List<Eigen::MatrixXd> parts(nParts);
-        parallelFor(
-            nParts,
-            [&](label begin, label end) {
-                for (label k = begin; k < end; ++k)
-                {
-                    parts[k] = Eigen::MatrixXd::Zero(coarse.n, coarse.n);
-                    const label from = within_.first + label(std::int64_t(rows) * k / nParts),
-                                to = within_.first + label(std::int64_t(rows) * (k + 1) / nParts);
-                    addCoarse(coarse.of, from, to, parts[k]);
-                }
-            },
-            1);
+        const auto sums = [&](label begin, label end) {
+            Eigen::MatrixXd part = Eigen::MatrixXd::Zero(coarse.n, coarse.n);
+            addCoarse(coarse.of, within_.first + begin, within_.first + end, part);
+            return part;
+        };
         Eigen::MatrixXd A = Eigen::MatrixXd::Zero(coarse.n, coarse.n);
-        for (const Eigen::MatrixXd& part : parts) A += part;
+        for (const Eigen::MatrixXd& part : parallelParts(cloud_.n() - within_.first, sums))
+            A += part;
         for (label i = within_.first; i < cloud_.n(); ++i)
             if (const label c = coarse.of[i]; c >= 0)
                 A(c, c) += (closed_[i] ? regular : stripLevel) * weight_[i] * diagonal[i];
@@ -558,6 +569,7 @@ private:
     List<scalar> share_,
         weight_;  // weight_: of a particle in a sum, one for all members of a strip
     List<strip> strips_;
+    connectedBodies bodies_;
 };
 
 }  // namespace
@@ -574,7 +586,7 @@ faceVectors::closure faceVectors::build(const particleCloud& cloud, const neighb
     faces.shorten();
     faces.close(b, tolerance, result);
     faces.write(a, psi);
-    poor = faces.poor(), left = faces.left(b, result);
+    poor = faces.poor(), left = faces.left(b, result), bodies = faces.bodies();
     return result;
 }
 

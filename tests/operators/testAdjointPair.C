@@ -36,7 +36,10 @@ TEST_CASE(
             CHECK(std::abs(work - power) < 1e-13 * scale);
             CHECK(std::abs(volume - swept) < 1e-13 * sizes);
             if (!w.periodic) CHECK(std::abs(power) > 1e-5 * scale);
-            for (vec4& a : f) a[3] = 0.7;
+            const bool divided = w.name.starts_with("divided");
+            for (label i = 0; i < cloud.n(); ++i)  // a level for each body
+                f[i][3] = divided && cloud.x[i][0] > 0.5 ? -2 : 0.7;
+            cloud.fillGradientGhosts(f);
             for (const vec4& a : w.gradient(f)) REQUIRE(a.xyz().norm() < 1e-13 / cloud.dx);
         }
 }
@@ -57,26 +60,29 @@ TEST_CASE(
             cloud.fillGradientGhosts(u);
             const List<scalar> div = w.divergence(u);
             const List<vec4> p = randomField(cloud, 5);
-            vector momentum = vector::Zero(), force = vector::Zero();
+            // of each body of fluid by itself
+            const bool divided = w.name.starts_with("divided");
+            const auto body = [&](const vector& x) { return divided && x[0] > 0.5; };
+            vector lacks[2] = {vector::Zero(), vector::Zero()};
             scalar size = 0, tight = 0;
             List<scalar> open;
             const List<vec4> gp = w.gradient(p);
-            for (const vec4& g : gp) momentum += cloud.volume() * g.xyz();
             for (label i = 0; i < n; ++i)
             {
                 CHECK(std::abs(div[i]) < 1e-11);  // what closure leaves is taken out
                 open.push_back(w.open(w.pair.faces(), i).norm());
+                lacks[body(cloud.x[i].xyz())] += cloud.volume() * gp[i].xyz();
                 size += cloud.volume() * gp[i].xyz().norm();
                 tight = std::max(tight, cloud.dx * w.open(w.tight.a, i).norm());
             }
             w.forShares(p, [&](const surfaceElement& e, scalar part, scalar at) {
-                force += part * at * e.S;
+                lacks[body(e.x)] -= part * at * e.S;
             });
             const scalar defect = w.pair.closure().defect / cloud.dx;
             CHECK(defect * cloud.dx <= 1e-4);
             CHECK(rms(open) < 1.01 * defect);
             CHECK(tight < 1e-6);
-            CHECK((momentum - force).norm() < 1e-13 * size);
+            for (const vector& l : lacks) CHECK(l.norm() < 1e-13 * size);
         }
 }
 
@@ -102,7 +108,8 @@ TEST_CASE("the stabiliser is symmetric, takes energy, and leaves linear pressure
             CHECK(pSp == doctest::Approx(product(gp, gp)).epsilon(1e-12));
             CHECK(std::abs(qSp - product(gq, gp)) < 1e-13 * pSp);
             // linear p, seen away from cyclic sides and symmetry planes, where it has a kink
-            if (!w.closed || w.name.starts_with("cyclic") || w.name.starts_with("symmetry"))
+            if (!w.closed || w.name.starts_with("cyclic") || w.name.starts_with("symmetry") ||
+                w.name.starts_with("divided"))  // three or four particles wide
                 continue;
             List<vec4> p(w.cloud.n());
             for (label i = 0; i < w.cloud.n(); ++i)
@@ -194,7 +201,9 @@ TEST_CASE("shifting makes no new extremum, gains no more energy than it may, and
                     scalar high = 0;
                     for (std::int64_t k = w.list.start[i]; k < w.list.start[i + 1]; ++k)
                         high = std::max(high, along.dot(before[w.list.index[k]].xyz() - u));
-                    beyond = std::max(beyond, d.norm() - high);
+                    // the direction of a small change is that of what rounding leaves of it
+                    const scalar rounding = d.norm() > 0 ? 1e-16 / d.norm() : 0;
+                    beyond = std::max(beyond, d.norm() - high - rounding);
                     momentum += d, changes += d.norm(), energy += d.dot(u) + 0.5 * d.squaredNorm();
                     moved = std::max(moved, (cloud.x[i].xyz() - x[i].xyz()).norm());
                 }
