@@ -425,24 +425,28 @@ private:
         const label k = cloud_.stripOf(i);
         return k > 0 && !strips_[k].members.empty();
     }
-    // The graph's Laplacian over blocks of particles, each with one value; a strip is a block
+    // The graph's Laplacian over blocks of particles, each with one value; a strip is a block.  Images turn psi, so that each
+    // component has its own
     struct coarseLevel
     {
         label n = 0;
-        List<label> of;  // block of a particle, -1: none
-        Eigen::LDLT<Eigen::MatrixXd> factor;
+        List<label> of;                             // block of a particle, -1: none
+        List<Eigen::LLT<Eigen::MatrixXd>> factors;  // of all components, or of each
         void solve(List<Eigen::Vector3d>& f) const
         {
             Eigen::MatrixXd all(n, 3);
             for (label c = 0; c < n; ++c) all.row(c) = f[c].transpose();
-            all = factor.solve(all).eval();
+            if (factors.size() == 1) all = factors[0].solve(all).eval();
+            else
+                for (size_t d = 0; d < factors.size(); ++d)
+                    all.col(d) = factors[d].solve(all.col(d)).eval();
             for (label c = 0; c < n; ++c) f[c] = all.row(c).transpose();
         }
     };
 
     coarseLevel makeCoarse(const List<scalar>& diagonal) const
     {
-        constexpr scalar mostBlocks = 200, leastInBlock = 30, regular = 1e-8;
+        constexpr scalar mostBlocks = 300, leastInBlock = 30, regular = 1e-8;
         coarseLevel coarse;
         coarse.of.assign(cloud_.n(), -1);
         const scalar count = scalar(cloud_.n() - within_.first);
@@ -461,34 +465,47 @@ private:
             coarse.of[i] = blocks.try_emplace(key, label(blocks.size())).first->second;
         }
         coarse.n = label(blocks.size());
+        const int nFactors = cloud_.freeDirections().isIdentity(1e-9) ? 1 : cloud_.nDims;
         const auto sums = [&](label begin, label end) {
-            Eigen::MatrixXd part = Eigen::MatrixXd::Zero(coarse.n, coarse.n);
+            List<Eigen::MatrixXd> part(nFactors, Eigen::MatrixXd::Zero(coarse.n, coarse.n));
             addCoarse(coarse.of, within_.first + begin, within_.first + end, part);
             return part;
         };
-        Eigen::MatrixXd A = Eigen::MatrixXd::Zero(coarse.n, coarse.n);
-        for (const Eigen::MatrixXd& part : parallelParts(cloud_.n() - within_.first, sums))
-            A += part;
-        for (label i = within_.first; i < cloud_.n(); ++i)
-            if (const label c = coarse.of[i]; c >= 0)
-                A(c, c) += (closed_[i] ? regular : stripLevel) * weight_[i] * diagonal[i];
-        coarse.factor.compute(A);
+        List<Eigen::MatrixXd> A(nFactors, Eigen::MatrixXd::Zero(coarse.n, coarse.n));
+        for (const List<Eigen::MatrixXd>& part : parallelParts(cloud_.n() - within_.first, sums))
+            for (int d = 0; d < nFactors; ++d) A[d] += part[d];
+        for (Eigen::MatrixXd& Ad : A)
+        {
+            for (label i = within_.first; i < cloud_.n(); ++i)
+                if (const label c = coarse.of[i]; c >= 0)
+                    Ad(c, c) += (closed_[i] ? regular : stripLevel) * weight_[i] * diagonal[i];
+            coarse.factors.emplace_back(Ad);
+        }
         return coarse;
     }
 
-    void addCoarse(const List<label>& of, label from, label to, Eigen::MatrixXd& A) const
+    void addCoarse(const List<label>& of, label from, label to, List<Eigen::MatrixXd>& A) const
     {
+        const tensor free = cloud_.freeDirections();
+        const auto add = [&](label i, label j, scalar w, int d) {
+            const label owner = cloud_.ownerOf(j), block = of[i], other = of[owner];
+            const scalar turned = j < cloud_.n() ? 1 : cloud_.ruleOf(j).R(d, d);
+            const bool fixed = isStrip(owner) && free(d, d) < 0.5;
+            if (other == block) A[d](block, block) += w * (1 - turned);
+            else
+            {
+                A[d](block, block) += w;
+                if (other >= 0 && !fixed) A[d](block, other) -= w * turned;
+            }
+        };
         for (label i = from; i < to; ++i)
         {
             if (of[i] < 0) continue;
+            const auto held = [&](size_t d) { return isStrip(i) && free(d, d) < 0.5; };
             for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
-            {
-                const label other = of[cloud_.ownerOf(list_.index[k])];
-                if (other == of[i] || (isStrip(i) && isStrip(cloud_.ownerOf(list_.index[k]))))
-                    continue;
-                A(of[i], of[i]) -= list_.F[k];
-                if (other >= 0) A(of[i], other) += list_.F[k];
-            }
+                if (const label j = list_.index[k]; !isStrip(i) || !isStrip(cloud_.ownerOf(j)))
+                    for (size_t d = 0; d < A.size(); ++d)
+                        if (!held(d)) add(i, j, -list_.F[k], int(d));
         }
     }
 
