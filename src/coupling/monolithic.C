@@ -124,17 +124,13 @@ scalar monolithic::rounding(scalar dt, const List<scalar>& z) const
     return 16 * std::numeric_limits<scalar>::epsilon() * (x / dt + dt / (c_.rho * cloud.dx) * p);
 }
 
-// No limit of stability; where the step is adjusted, the fluid's motion rules it for accuracy.  Past a solid longer steps
-// make p work out of nothing (gains) unless viscosity smooths the flow meanwhile: measured on a disc of 6 dx in vortices
+// No limit of stability; where the step is adjusted, the fluid's motion rules it for accuracy
 couplingScheme::stepLimit monolithic::limit() const
 {
     c_.walls->setStep(c_.time.value(), c_.stepEnd());
     const scalar u = velocityScale();
     if (!c_.time.adjustTimeStep() || u == 0) return {1e30, "no"};
-    const scalar past = std::max(0.1 * c_.cloud.dx / u, 2 * c_.nu() / (u * u));
-    const scalar dt = 0.4 * c_.kernel->h() / u;
-    if (c_.structure && past < dt) return {past, "CFL beside a solid"};
-    return {dt, "CFL"};
+    return {0.4 * c_.kernel->h() / u, "CFL"};
 }
 
 void monolithic::structureState()
