@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wallSet.H"
+#include "halfSpace.H"
 #include "siteFile.H"
 
 #include <algorithm>
@@ -430,7 +431,7 @@ void wallSet::split(const std::array<vector, 3>& t, const boundBox& region, scal
 }
 
 // Facets that particles may come near, no longer than dx; those that share a cell of dx and look the same way as one: areas add up, the centre is
-// their mean.  A facet beyond a symmetry plane or cyclic side is an image
+// their mean.  What lies beyond symmetry planes and cyclic sides is an image
 void wallSet::makeElements(const particleCloud& cloud)
 {
     elements_.clear();
@@ -450,6 +451,7 @@ void wallSet::makeElements(const particleCloud& cloud)
         scalar& sum = weight[at->second];
         e.x = (sum * e.x + S.norm() * x) / (sum + S.norm());
         e.S += S, sum += S.norm();
+        return at->second;
     };
     boundBox region;
     for (label i = 0; i < cloud.n(); ++i) region.add(cloud.x[i].xyz());
@@ -458,14 +460,20 @@ void wallSet::makeElements(const particleCloud& cloud)
     {
         const body& own = bodies_[b];
         if (!own.surface->mesh()) continue;
-        const triSurface& s = *own.surface->mesh();
+        triSurface s = *own.surface->mesh();
+        for (const auto& [point, normal] : group_->planes())
+            s = clipped(s, {point, normal}, 1e-6 * dx_);
         const scalar depth = perDepth(*own.surface);
         const auto facet = [&](label w, const vector& p, const vector& q, const vector& r) {
             vector x = (p + q + r) / 3, S = 0.5 * depth * (q - p).cross(r - p);
             if (nDims_ == 2) x[2] = S[2] = 0;
-            if (group_->beyond(x) > 0 || S.isZero(0)) return;
-            add(b, w, x, S);
-            if (own.twoSided) add(b, w, x, -S);
+            if (S.isZero(0)) return;
+            for (const int side : {1, -1})
+            {
+                if (side < 0 && !own.twoSided) continue;
+                const size_t at = add(b, w, x, side * S);
+                if (bodies_.size() > 1) elements_[at].facets.push_back({p, q, r});
+            }
         };
         for (label t = 0; t < s.size(); ++t)
             split({s.corner(t, 0), s.corner(t, 1), s.corner(t, 2)}, region, reach,
@@ -504,10 +512,44 @@ void wallSet::coverPlanes(const particleCloud& cloud)
                     planeElements_.push_back({b, w, e.x, e.area * walls_[w].normal});
 }
 
+namespace
+{
+
+// Share of a triangle with d < 0, d linear between its corners; one that lies in d = 0 is half before it
+scalar shareBelowZero(std::array<scalar, 3> d, scalar rounding)
+{
+    std::sort(d.begin(), d.end());
+    if (d[2] - d[0] < rounding && std::abs(d[0]) < rounding) return 0.5;
+    if (d[2] <= 0) return 1;
+    if (d[0] >= 0) return 0;
+    if (d[1] > 0) return d[0] * d[0] / ((d[0] - d[1]) * (d[0] - d[2]));
+    return 1 - d[2] * d[2] / ((d[2] - d[0]) * (d[2] - d[1]));
+}
+
+}  // namespace
+
+// Share of an element's facets that lies before the surface of another body
+scalar wallSet::shareBefore(const element& e, const body& other, scalar width) const
+{
+    const auto depth = [&](const vector& v) {
+        const surfaceFoot f =
+            other.surface->find(frame(other).toBody(frame(bodies_[e.body]).toSpace(v)));
+        return f.found && f.aside < width ? f.depth : -width;
+    };
+    scalar before = 0, all = 0;
+    for (const auto& [a, b, c] : e.facets)
+    {
+        const scalar area = (b - a).cross(c - a).norm();
+        before += area * shareBelowZero({depth(a), depth(b), depth(c)}, 1e-6 * dx_), all += area;
+    }
+    return before / all;
+}
+
 // Share of an element, at x now, that lies in the fluid and not behind the surface of another body
 scalar wallSet::uncovered(const element& e, const vector& x) const
 {
-    const scalar width = nDims_ == 3 ? std::sqrt(e.S.norm()) : e.S.norm();
+    const scalar size = nDims_ == 3 ? std::sqrt(e.S.norm()) : e.S.norm();
+    const scalar width = std::max(size, 1.5 * dx_);
     scalar share = 1;
     for (size_t b = 0; b < bodies_.size(); ++b)
     {
@@ -515,8 +557,11 @@ scalar wallSet::uncovered(const element& e, const vector& x) const
         const vector y = frame(bodies_[b]).toBody(x);
         if (bodies_[b].surface->surelyFar(y)) continue;
         const surfaceFoot f = bodies_[b].surface->find(y);
-        if (f.found && f.aside < width)
-            share = std::min(share, std::clamp(0.5 - f.depth / width, 0.0, 1.0));
+        if (!f.found || f.aside >= width) continue;
+        if (e.facets.empty())  // of a plane: a square
+            share = std::min(share, std::clamp(0.5 - f.depth / size, 0.0, 1.0));
+        else if (std::abs(f.depth) > width) share = f.depth < 0 ? share : 0;
+        else share = std::min(share, shareBefore(e, bodies_[b], width));
     }
     return share;
 }

@@ -87,7 +87,8 @@ void coupledRows::gradient(const List<vec4>& phi, List<vec4>& gp) const
 void coupledRows::solidGradient(const List<vec4>& phi, List<vec4>& gp) const
 {
     if (!volume_) return;
-    surface_->loads(phi, load_, stress_);
+    surface_->loads(phi, load_);
+    stress_.assign(cloud_->nSolid(), tensor::Zero());
     volume_->addStress(phi, stress_);
     volume_->gradient().forces(stress_, force_);
     const scalar perVolume = 1 / cloud_->volume();
@@ -100,9 +101,9 @@ void coupledRows::divergence(const List<vec4>& phi, List<scalar>& div) const
     div.resize(cloud_->n());
     pair_.divergence(phi, div);
     if (!volume_) return;
-    volume_->rate(phi, rate_, dF_);
+    volume_->rate(phi, rate_);
     for (label i = 0; i < cloud_->nSolid(); ++i) div[i] = rate_[i];
-    surface_->addFlux(phi, dF_, div);
+    surface_->addFlux(phi, div);
 }
 
 void coupledRows::solidStabiliser(List<vec4>& gs, List<scalar>& cp) const

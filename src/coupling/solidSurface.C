@@ -141,6 +141,12 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
                 for (label i = begin; i < end; ++i)
                 {
                     if (A[i][3] == 0) continue;
+                    // what is clamped moves as one up to its edge, whatever its neighbours' motion extrapolates to
+                    if (cloud.uFixed[i])
+                    {
+                        near[i] = {i}, weight[i] = {1};
+                        continue;
+                    }
                     const vector foot = rest[i] + e[i].xyz();
                     List<vector> r;
                     solids.grid.within(foot, reach, [&](label k, scalar) { near[i].push_back(k); });
@@ -161,6 +167,18 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
             f.start.push_back(label(f.source.size()));
         }
     }
+    List<List<carriedFoot>> byCarrier(cloud.nSolid());
+    for (const int s : {0, 1})
+        for (label i = 0; i < cloud.nSolid(); ++i)
+            for (label k = feet_[s].start[i]; k < feet_[s].start[i + 1]; ++k)
+                byCarrier[feet_[s].source[k]].push_back(
+                    {i, s, feet_[s].image[k], feet_[s].weight[k]});
+    firstCarried_ = {0};
+    for (const List<carriedFoot>& carried : byCarrier)
+    {
+        carried_.insert(carried_.end(), carried.begin(), carried.end());
+        firstCarried_.push_back(label(carried_.size()));
+    }
 }
 
 // On the surface: an inflated ring's layers are stretched the less the deeper they lie
@@ -177,26 +195,13 @@ vector solidSurface::areaVector(int s, label i, const List<tensor>& cofactor) co
     return there * cloud_->vectors.at(areaField[s])[i].xyz();
 }
 
-scalar solidSurface::flux(const List<vec4>& u, const List<tensor>& cofactor,
-                          const List<char>& zones) const
+vector solidSurface::onSurface(int s, label i, const List<vec4>& u) const
 {
-    return parallelSum(cloud_->nSolid(), [&](label begin, label end) {
-        scalar sum = 0;
-        for (label i = begin; i < end; ++i)
-            for (const int s : {0, 1})
-            {
-                if (part_[s][i].side < 0 || !zones[part_[s][i].side]) continue;
-                vector at = vector::Zero();
-                // what is clamped moves as one up to its edge, whatever its neighbours' motion extrapolates to
-                const feet& f = feet_[s];
-                if (cloud_->uFixed[i]) at = u[i].xyz();
-                else
-                    for (label k = f.start[i]; k < f.start[i + 1]; ++k)
-                        at += f.weight[k] * (turn_[f.image[k]] * u[f.source[k]].xyz());
-                sum -= areaVector(s, i, cofactor).dot(at);
-            }
-        return sum;
-    });
+    const feet& f = feet_[s];
+    vector at = vector::Zero();
+    for (label k = f.start[i]; k < f.start[i + 1]; ++k)
+        at += f.weight[k] * (turn_[f.image[k]] * u[f.source[k]].xyz());
+    return at;
 }
 
 scalar solidSurface::area(const List<char>& zones) const
@@ -237,27 +242,40 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
     }
 }
 
-void solidSurface::loads(const List<vec4>& up, List<vec4>& Q, List<tensor>& P) const
+void solidSurface::loads(const List<vec4>& up, List<vec4>& against) const
 {
     const label nSolid = cloud_->nSolid();
-    const scalar perVolume = 1 / cloud_->volume();
-    Q.resize(nSolid), P.resize(nSolid);
+    for (const int s : {0, 1}) pressed_[s].assign(nSolid, vec4{});
+    against.resize(nSolid);
     parallelFor(
         nSolid,
         [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
-            {
-                Q[i] = vec4{}, P[i].setZero();
                 for (const int s : {0, 1})
                 {
-                    const sided& part = part_[s][i];
-                    if (part.side < 0) continue;
+                    if (part_[s][i].side < 0) continue;
                     scalar p = 0;
                     const scalar* w = weight_[s].data() + start_[i];
                     for (std::int64_t k = list_->mid[i]; k < list_->start[i + 1]; ++k)
                         p += *w++ * up[list_->index[k]].s[3];
-                    Q[i].s += p * vec4::from(part.S).s;
-                    P[i] += p * perVolume * part.S * part.e0.transpose();
+                    pressed_[s][i] = vec4::from(p * part_[s][i].S);
+                }
+        },
+        256);
+    parallelFor(
+        nSolid,
+        [&](label begin, label end) {
+            for (label l = begin; l < end; ++l)
+            {
+                against[l] = vec4{};
+                for (label k = firstCarried_[l]; k < firstCarried_[l + 1]; ++k)
+                {
+                    const carriedFoot& f = carried_[k];
+                    const vec4& force = pressed_[f.side][f.particle];
+                    if (f.image == 0) against[l].s += f.weight * force.s;
+                    else
+                        against[l].s +=
+                            f.weight * vec4::from(turn_[f.image].transpose() * force.xyz()).s;
                 }
             }
         },
@@ -274,7 +292,7 @@ void solidSurface::forShares(const Visit& visit) const
             if (part_[s][i].side < 0) continue;
             const scalar* w = weight_[s].data() + start_[i];
             for (std::int64_t k = list_->mid[i]; k < list_->start[i + 1]; ++k, ++w)
-                if (*w != 0) visit(i, part_[s][i], list_->index[k], *w);
+                if (*w != 0) visit(i, s, list_->index[k], *w);
         }
 }
 
@@ -283,7 +301,8 @@ void solidSurface::shares(List<vec4>& b, List<tensor>& moment) const
     const particleCloud& cloud = *cloud_;
     const scalar perVolume = 1 / cloud.volume();
     b.assign(cloud.n(), vec4{}), moment.assign(cloud.n(), tensor::Zero());
-    forShares([&](label k, const sided& part, label j, scalar w) {
+    forShares([&](label k, int s, label j, scalar w) {
+        const sided& part = part_[s][k];
         vector S = part.S, way = cloud.x[k].xyz() + part.e - cloud.x[j].xyz();
         if (j >= cloud.n())
         {
@@ -296,18 +315,24 @@ void solidSurface::shares(List<vec4>& b, List<tensor>& moment) const
     });
 }
 
-void solidSurface::addFlux(const List<vec4>& u, const List<tensor>& dF, List<scalar>& div) const
+void solidSurface::addFlux(const List<vec4>& u, List<scalar>& div) const
 {
     const scalar perVolume = 1 / cloud_->volume();
-    label last = -1;
-    int side = -1;
-    scalar gives = 0;
-    forShares([&](label k, const sided& part, label j, scalar w) {
-        if (k != last || part.side != side)
-            gives = perVolume * part.S.dot(u[k].xyz() + dF[k] * part.e0), last = k,
-            side = part.side;
-        div[cloud_->ownerOf(j)] -= w * gives;
-    });
+    List<scalar> gives[2];
+    for (const int s : {0, 1})
+    {
+        gives[s].resize(cloud_->nSolid(), 0);
+        parallelFor(
+            cloud_->nSolid(),
+            [&](label begin, label end) {
+                for (label i = begin; i < end; ++i)
+                    if (part_[s][i].side >= 0)
+                        gives[s][i] = perVolume * part_[s][i].S.dot(onSurface(s, i, u));
+            },
+            256);
+    }
+    forShares(
+        [&](label k, int s, label j, scalar w) { div[cloud_->ownerOf(j)] -= w * gives[s][k]; });
 }
 
 }  // namespace ispf

@@ -10,41 +10,40 @@ static tensor cofactorOf(const tensor& F)
     return F.determinant() * F.inverse().transpose();
 }
 
-void volumeConstraint::setup(const List<tensor>& F)
+void volumeConstraint::setup(const List<tensor>& F, const List<tensor>& middle)
 {
     F_ = F;
     cofactor_.resize(F.size());
     parallelFor(
         label(F.size()),
         [&](label begin, label end) {
-            for (label i = begin; i < end; ++i) cofactor_[i] = cofactorOf(F[i]);
+            for (label i = begin; i < end; ++i) cofactor_[i] = cofactorOf(middle[i]);
         },
         256);
 }
 
-void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ, List<tensor>& dF) const
+void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ) const
 {
-    gradient_.applyLinear(u, dF);
-    dJ.resize(dF.size());
-    for (size_t i = 0; i < dF.size(); ++i) dJ[i] = cofactor_[i].cwiseProduct(dF[i]).sum();
+    gradient_.applyLinear(u, work_);
+    dJ.resize(work_.size());
+    for (size_t i = 0; i < work_.size(); ++i) dJ[i] = cofactor_[i].cwiseProduct(work_[i]).sum();
 }
 
 // F is linear and its cofactor at most quadratic in time, for which Simpson's rule is exact
-void volumeConstraint::overStep(const List<vec4>& u, scalar dt, List<tensor>& mean,
-                                List<scalar>& missed) const
+void volumeConstraint::overStep(const List<vec4>& u, scalar dt, List<scalar>& missed) const
 {
     gradient_.applyLinear(u, work_);
-    mean.resize(work_.size()), missed.resize(work_.size());
+    missed.resize(work_.size());
     parallelFor(
         label(work_.size()),
         [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
             {
                 const tensor change = dt * work_[i];
-                mean[i] = (cofactor_[i] + 4 * cofactorOf(F_[i] + 0.5 * change) +
-                           cofactorOf(F_[i] + change)) /
-                          6;
-                missed[i] = (mean[i] - cofactor_[i]).cwiseProduct(change).sum();
+                const tensor mean = (cofactorOf(F_[i]) + 4 * cofactorOf(F_[i] + 0.5 * change) +
+                                     cofactorOf(F_[i] + change)) /
+                                    6;
+                missed[i] = (mean - cofactor_[i]).cwiseProduct(change).sum();
             }
         },
         256);
