@@ -71,7 +71,7 @@ private:
     void keep() override { preconditioner_.keep(c_.cloud); }
     word advice() const override;
 
-    void structureState(scalar dt);
+    void structureState();
     List<scalar> guess() const;
     scalar feedback(label i, scalar dt) const;
     scalar missed(label i, scalar dt) const;
@@ -128,8 +128,7 @@ couplingScheme::stepLimit monolithic::limit() const
     return {0.4 * c_.kernel->h() / u, "CFL"};
 }
 
-// Area vectors and cofactors are foreseen in the middle of the step, where they miss O(dt^3) of what is swept (5.12)
-void monolithic::structureState(scalar dt)
+void monolithic::structureState()
 {
     if (!c_.structure) return;
     c_.structure->deformationGradient(c_.cloud.x, F_);
@@ -137,11 +136,8 @@ void monolithic::structureState(scalar dt)
     c_.structure->assembleTangent(c_.cloud.x, tangentKind::positive, K_);
     const List<isometry>& images = c_.structure->reference().images;
     surface_.initialise(c_.cloud, c_.list, F_, images);
-    List<tensor> middle;
-    volume_->gradient().applyLinear(c_.cloud.Up, middle);
-    for (size_t i = 0; i < middle.size(); ++i) middle[i] = F_[i] + 0.5 * dt * middle[i];
-    volume_->setup(F_, middle);
-    surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
+    volume_->setup(F_);
+    surface_.setup(c_.cloud, c_.list, *c_.kernel, F_, images);
 }
 
 // The last step's change goes on.  With a pressure that rises steadily this starts nearer to the
@@ -287,7 +283,7 @@ word monolithic::attempt(scalar t, scalar dt)
     c_.updateNeighbours(time_.times());
     system_.setStep(t, t + dt);
     energy_.begin();
-    structureState(dt);
+    structureState();
     system_.hydrostatic().take(cloud);
     time_.begin(cloud);
     const List<vec4> start(cloud.Up.begin(), cloud.Up.begin() + cloud.n());

@@ -102,7 +102,7 @@ void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
 }
 
 void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
-                         const smoothingKernel& kernel, const List<tensor>& cofactor,
+                         const smoothingKernel& kernel, const List<tensor>& F,
                          const List<isometry>& images)
 {
     cloud_ = &cloud, list_ = &list;
@@ -114,7 +114,7 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
     parallelFor(
         nSolid,
         [&](label begin, label end) {
-            for (label i = begin; i < end; ++i) setupParticle(i, kernel, cofactor);
+            for (label i = begin; i < end; ++i) setupParticle(i, kernel, F);
         },
         256);
 }
@@ -123,8 +123,8 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
 void solidSurface::findFeet(const particleCloud& cloud, scalar support,
                             const List<isometry>& images)
 {
-    turn_ = {tensor::Identity()};
-    for (const isometry& m : images) turn_.push_back(m.R);
+    maps_ = {isometry()};
+    maps_.insert(maps_.end(), images.begin(), images.end());
     const List<vec4>& x0 = cloud.vectors.at("x0");
     const scalar reach = std::max(3 * cloud.dx, support);
     List<vector> rest;
@@ -134,7 +134,7 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
     {
         const List<vec4>&A = cloud.vectors.at(areaField[s]), &e = cloud.vectors.at(wayField[s]);
         List<List<label>> near(cloud.nSolid());
-        List<List<scalar>> weight(cloud.nSolid());
+        List<followed> fit(cloud.nSolid());
         parallelFor(
             cloud.nSolid(),
             [&](label begin, label end) {
@@ -144,7 +144,7 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
                     // what is clamped moves as one up to its edge, whatever its neighbours' motion extrapolates to
                     if (cloud.uFixed[i])
                     {
-                        near[i] = {i}, weight[i] = {1};
+                        near[i] = {i}, fit[i] = {{1}, {vector::Zero()}};
                         continue;
                     }
                     const vector foot = rest[i] + e[i].xyz();
@@ -152,8 +152,8 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
                     solids.grid.within(foot, reach, [&](label k, scalar) { near[i].push_back(k); });
                     std::sort(near[i].begin(), near[i].end());
                     for (const label k : near[i]) r.push_back((solids.grid[k] - foot) / reach);
-                    weight[i] = followWeights(r);
-                    if (weight[i].empty()) near[i] = {i}, weight[i] = {1};
+                    fit[i] = follow(r);
+                    if (fit[i].weight.empty()) near[i] = {i}, fit[i] = {{1}, {vector::Zero()}};
                 }
             },
             16);
@@ -163,7 +163,14 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
         {
             for (const label k : near[i])
                 f.source.push_back(solids.source[k]), f.image.push_back(solids.image[k]);
-            f.weight.insert(f.weight.end(), weight[i].begin(), weight[i].end());
+            tensor spanned = tensor::Zero();
+            for (size_t k = 0; k < near[i].size(); ++k)
+            {
+                f.weight.push_back(fit[i].weight[k]);
+                f.slope.push_back(fit[i].slope[k] / reach);
+                spanned += solids.grid[near[i][k]] * f.slope.back().transpose();
+            }
+            f.spanned.push_back(spanned);
             f.start.push_back(label(f.source.size()));
         }
     }
@@ -181,18 +188,21 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
     }
 }
 
-// On the surface: an inflated ring's layers are stretched the less the deeper they lie
-vector solidSurface::areaVector(int s, label i, const List<tensor>& cofactor) const
+// S and e of particle i, whose own deformation gradient stands for what the solids about the foot do not span
+void solidSurface::carry(int s, label i, const tensor& own)
 {
     const feet& f = feet_[s];
-    tensor there = tensor::Zero();
+    sided& part = part_[s][i];
+    tensor F = own * (tensor::Identity() - f.spanned[i]);
+    vector foot = vector::Zero();
     for (label k = f.start[i]; k < f.start[i + 1]; ++k)
     {
-        const tensor& R = turn_[f.image[k]];
-        if (f.image[k] == 0) there += f.weight[k] * cofactor[f.source[k]];
-        else there += f.weight[k] * R * cofactor[f.source[k]] * R.transpose();
+        const vector x = maps_[f.image[k]](cloud_->x[f.source[k]].xyz());
+        F += x * f.slope[k].transpose(), foot += f.weight[k] * x;
     }
-    return there * cloud_->vectors.at(areaField[s])[i].xyz();
+    part.S = F.determinant() * F.inverse().transpose() * cloud_->vectors.at(areaField[s])[i].xyz();
+    const bool alone = f.start[i + 1] - f.start[i] == 1;
+    part.e = alone ? vector(own * part.e0) : vector(foot - cloud_->x[i].xyz());
 }
 
 vector solidSurface::onSurface(int s, label i, const List<vec4>& u) const
@@ -200,7 +210,7 @@ vector solidSurface::onSurface(int s, label i, const List<vec4>& u) const
     const feet& f = feet_[s];
     vector at = vector::Zero();
     for (label k = f.start[i]; k < f.start[i + 1]; ++k)
-        at += f.weight[k] * (turn_[f.image[k]] * u[f.source[k]].xyz());
+        at += f.weight[k] * (maps_[f.image[k]].R * u[f.source[k]].xyz());
     return at;
 }
 
@@ -214,8 +224,7 @@ scalar solidSurface::area(const List<char>& zones) const
     return sum;
 }
 
-void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
-                                 const List<tensor>& cofactor)
+void solidSurface::setupParticle(label i, const smoothingKernel& kernel, const List<tensor>& F)
 {
     const particleCloud& cloud = *cloud_;
     for (const int s : {0, 1})
@@ -225,9 +234,7 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
         part = sided();
         part.side = int(S0[3]) - 1, part.e0 = cloud.vectors.at(wayField[s])[i].xyz();
         if (part.side < 0) continue;
-        part.S = areaVector(s, i, cofactor);
-        // F = J (cof F)^-T, and det cof F = J^2
-        part.e = std::sqrt(cofactor[i].determinant()) * cofactor[i].inverse().transpose() * part.e0;
+        carry(s, i, F[i]);
         scalar sum = 0;
         const label m = label(start_[i + 1] - start_[i]);
         scalar* w = weight_[s].data() + start_[i];
@@ -275,7 +282,7 @@ void solidSurface::loads(const List<vec4>& up, List<vec4>& against) const
                     if (f.image == 0) against[l].s += f.weight * force.s;
                     else
                         against[l].s +=
-                            f.weight * vec4::from(turn_[f.image].transpose() * force.xyz()).s;
+                            f.weight * vec4::from(maps_[f.image].R.transpose() * force.xyz()).s;
                 }
             }
         },

@@ -10,14 +10,14 @@ static tensor cofactorOf(const tensor& F)
     return F.determinant() * F.inverse().transpose();
 }
 
-void volumeConstraint::setup(const List<tensor>& F, const List<tensor>& middle)
+void volumeConstraint::setup(const List<tensor>& F)
 {
     F_ = F;
     cofactor_.resize(F.size());
     parallelFor(
         label(F.size()),
         [&](label begin, label end) {
-            for (label i = begin; i < end; ++i) cofactor_[i] = cofactorOf(middle[i]);
+            for (label i = begin; i < end; ++i) cofactor_[i] = cofactorOf(F[i]);
         },
         256);
 }
@@ -40,7 +40,7 @@ void volumeConstraint::overStep(const List<vec4>& u, scalar dt, List<scalar>& mi
             for (label i = begin; i < end; ++i)
             {
                 const tensor change = dt * work_[i];
-                const tensor mean = (cofactorOf(F_[i]) + 4 * cofactorOf(F_[i] + 0.5 * change) +
+                const tensor mean = (cofactor_[i] + 4 * cofactorOf(F_[i] + 0.5 * change) +
                                      cofactorOf(F_[i] + change)) /
                                     6;
                 missed[i] = (mean - cofactor_[i]).cwiseProduct(change).sum();
