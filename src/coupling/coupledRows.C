@@ -87,8 +87,7 @@ void coupledRows::gradient(const List<vec4>& phi, List<vec4>& gp) const
 void coupledRows::solidGradient(const List<vec4>& phi, List<vec4>& gp) const
 {
     if (!volume_) return;
-    surface_->loads(phi, load_);
-    stress_.assign(cloud_->nSolid(), tensor::Zero());
+    surface_->loads(phi, load_, stress_);
     volume_->addStress(phi, stress_);
     volume_->gradient().forces(stress_, force_);
     const scalar perVolume = 1 / cloud_->volume();
@@ -101,9 +100,9 @@ void coupledRows::divergence(const List<vec4>& phi, List<scalar>& div) const
     div.resize(cloud_->n());
     pair_.divergence(phi, div);
     if (!volume_) return;
-    volume_->rate(phi, rate_);
+    volume_->rate(phi, rate_, dF_);
     for (label i = 0; i < cloud_->nSolid(); ++i) div[i] = rate_[i];
-    surface_->addFlux(phi, div);
+    surface_->addFlux(phi, dF_, div);
 }
 
 void coupledRows::solidStabiliser(List<vec4>& gs, List<scalar>& cp) const

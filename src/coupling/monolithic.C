@@ -8,6 +8,8 @@
 //         maxIter     150;
 //         theta       0.95;     // memory of the pressure stabiliser; fluid alone: 0, it moves on
 //         volumeFeedback 0.1;   // relaxes J - 1 of the solid, per step; booked by the volume ledger
+//         divergenceDefect yes; // what the divergence misses is made good a step later: of the fluid's flux,
+//                               // enclosedFluid.H; of the solid's volume as it turns, volumeConstraint.H
 //         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
 //     }
 //     shifting { ... }     densityFeedback 1;
@@ -53,10 +55,12 @@ public:
           absTolerance_(dict_.getInRangeOrDefault("absTolerance", 0, 0.1, 1e-5)),
           maxIter_(dict_.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
           time_(c),
+          makesGood_(dict_.getOrDefault("divergenceDefect", true)),
           shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c)),
           density_(c.solution, c.cloud)
     {
         time_.keepLevels();
+        system_.enclosed().makeGood(makesGood_);
         if (!c.structure) return;
         c.cloud.scalars[missedField].resize(c.cloud.n(), 0);
         K_ = c.structure->tangentPattern();
@@ -92,6 +96,7 @@ private:
     scalar theta_, alpha_, tolerance_, absTolerance_;
     label maxIter_;
     timeScheme time_;
+    bool makesGood_;
     particleShifting shifting_;
     densityFeedback density_;
 
@@ -137,7 +142,7 @@ void monolithic::structureState()
     const List<isometry>& images = c_.structure->reference().images;
     surface_.initialise(c_.cloud, c_.list, F_, images);
     volume_->setup(F_);
-    surface_.setup(c_.cloud, c_.list, *c_.kernel, F_, images);
+    surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
 }
 
 // The last step's change goes on.  With a pressure that rises steadily this starts nearer to the
@@ -171,7 +176,7 @@ scalar monolithic::feedback(label i, scalar dt) const
 
 scalar monolithic::missed(label i, scalar dt) const
 {
-    return -c_.cloud.scalars.at(missedField)[i] / dt;
+    return makesGood_ ? -c_.cloud.scalars.at(missedField)[i] / dt : 0;
 }
 
 template <class Source>
@@ -196,12 +201,16 @@ void monolithic::accept(const List<scalar>& z)
 void monolithic::account(scalar dt)
 {
     density_.book(c_.cloud, dt);
-    if (!c_.structure) return;
-    book(solidFeedback, dt, [&](label i) { return feedback(i, dt); });
-    book(solidDefect, dt, [&](label i) { return missed(i, dt); });
-    List<scalar> missed;
-    volume_->overStep(c_.cloud.Up, dt, missed);
-    std::copy(missed.begin(), missed.end(), c_.cloud.scalars.at(missedField).begin());
+    List<tensor> cofactor;
+    if (c_.structure)
+    {
+        book(solidFeedback, dt, [&](label i) { return feedback(i, dt); });
+        book(solidDefect, dt, [&](label i) { return missed(i, dt); });
+        List<scalar> missed;
+        volume_->overStep(c_.cloud.Up, dt, cofactor, missed);
+        std::copy(missed.begin(), missed.end(), c_.cloud.scalars.at(missedField).begin());
+    }
+    system_.enclosed().account(c_.cloud, dt, cofactor);
 }
 
 // div u is to be zero where the particles will be
@@ -230,6 +239,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     if (density_.on() && !c_.walls->hasCyclic())
         density_.addTo(q, system_.rows().pair(),
                        drainedFluid(cloud, c_.list, system_.enclosed().bodyOf()), dt);
+    system_.enclosed().addDefect(q);
     preconditioner_.setup();
     system_.rightHandSide(theta_, springForce_, q, b);
 
@@ -291,7 +301,8 @@ word monolithic::attempt(scalar t, scalar dt)
     if (const word reason = atTime(t + dt, [&] { return solve(dt, z); }); !reason.empty())
         return reason;
     accept(z);
-    energy_.weigh(time_.weight(), [&] { system_.book(start, theta_, springForce_, q_, energy_); });
+    energy_.weigh(time_.weight(),
+                  [&] { system_.book(start, theta_, springForce_, q_, energy_); });
     if (const word reason = tooFar(dt); !reason.empty()) return reason;
     account(dt);
     time_.end(cloud, energy_);

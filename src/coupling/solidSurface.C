@@ -102,7 +102,7 @@ void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
 }
 
 void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
-                         const smoothingKernel& kernel, const List<tensor>& F,
+                         const smoothingKernel& kernel, const List<tensor>& cofactor,
                          const List<isometry>& images)
 {
     cloud_ = &cloud, list_ = &list;
@@ -114,7 +114,7 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
     parallelFor(
         nSolid,
         [&](label begin, label end) {
-            for (label i = begin; i < end; ++i) setupParticle(i, kernel, F);
+            for (label i = begin; i < end; ++i) setupParticle(i, kernel, cofactor);
         },
         256);
 }
@@ -123,8 +123,8 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
 void solidSurface::findFeet(const particleCloud& cloud, scalar support,
                             const List<isometry>& images)
 {
-    maps_ = {isometry()};
-    maps_.insert(maps_.end(), images.begin(), images.end());
+    turn_ = {tensor::Identity()};
+    for (const isometry& m : images) turn_.push_back(m.R);
     const List<vec4>& x0 = cloud.vectors.at("x0");
     const scalar reach = std::max(3 * cloud.dx, support);
     List<vector> rest;
@@ -134,26 +134,20 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
     {
         const List<vec4>&A = cloud.vectors.at(areaField[s]), &e = cloud.vectors.at(wayField[s]);
         List<List<label>> near(cloud.nSolid());
-        List<followed> fit(cloud.nSolid());
+        List<List<scalar>> weight(cloud.nSolid());
         parallelFor(
             cloud.nSolid(),
             [&](label begin, label end) {
                 for (label i = begin; i < end; ++i)
                 {
                     if (A[i][3] == 0) continue;
-                    // what is clamped moves as one up to its edge, whatever its neighbours' motion extrapolates to
-                    if (cloud.uFixed[i])
-                    {
-                        near[i] = {i}, fit[i] = {{1}, {vector::Zero()}};
-                        continue;
-                    }
                     const vector foot = rest[i] + e[i].xyz();
                     List<vector> r;
                     solids.grid.within(foot, reach, [&](label k, scalar) { near[i].push_back(k); });
                     std::sort(near[i].begin(), near[i].end());
                     for (const label k : near[i]) r.push_back((solids.grid[k] - foot) / reach);
-                    fit[i] = follow(r);
-                    if (fit[i].weight.empty()) near[i] = {i}, fit[i] = {{1}, {vector::Zero()}};
+                    weight[i] = followWeights(r);
+                    if (weight[i].empty()) near[i] = {i}, weight[i] = {1};
                 }
             },
             16);
@@ -163,55 +157,46 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
         {
             for (const label k : near[i])
                 f.source.push_back(solids.source[k]), f.image.push_back(solids.image[k]);
-            tensor spanned = tensor::Zero();
-            for (size_t k = 0; k < near[i].size(); ++k)
-            {
-                f.weight.push_back(fit[i].weight[k]);
-                f.slope.push_back(fit[i].slope[k] / reach);
-                spanned += solids.grid[near[i][k]] * f.slope.back().transpose();
-            }
-            f.spanned.push_back(spanned);
+            f.weight.insert(f.weight.end(), weight[i].begin(), weight[i].end());
             f.start.push_back(label(f.source.size()));
         }
     }
-    List<List<carriedFoot>> byCarrier(cloud.nSolid());
-    for (const int s : {0, 1})
-        for (label i = 0; i < cloud.nSolid(); ++i)
-            for (label k = feet_[s].start[i]; k < feet_[s].start[i + 1]; ++k)
-                byCarrier[feet_[s].source[k]].push_back(
-                    {i, s, feet_[s].image[k], feet_[s].weight[k]});
-    firstCarried_ = {0};
-    for (const List<carriedFoot>& carried : byCarrier)
-    {
-        carried_.insert(carried_.end(), carried.begin(), carried.end());
-        firstCarried_.push_back(label(carried_.size()));
-    }
 }
 
-// S and e of particle i, whose own deformation gradient stands for what the solids about the foot do not span
-void solidSurface::carry(int s, label i, const tensor& own)
+// On the surface: an inflated ring's layers are stretched the less the deeper they lie
+vector solidSurface::areaVector(int s, label i, const List<tensor>& cofactor) const
 {
     const feet& f = feet_[s];
-    sided& part = part_[s][i];
-    tensor F = own * (tensor::Identity() - f.spanned[i]);
-    vector foot = vector::Zero();
+    tensor there = tensor::Zero();
     for (label k = f.start[i]; k < f.start[i + 1]; ++k)
     {
-        const vector x = maps_[f.image[k]](cloud_->x[f.source[k]].xyz());
-        F += x * f.slope[k].transpose(), foot += f.weight[k] * x;
+        const tensor& R = turn_[f.image[k]];
+        if (f.image[k] == 0) there += f.weight[k] * cofactor[f.source[k]];
+        else there += f.weight[k] * R * cofactor[f.source[k]] * R.transpose();
     }
-    part.S = F.determinant() * F.inverse().transpose() * cloud_->vectors.at(areaField[s])[i].xyz();
-    const bool alone = f.start[i + 1] - f.start[i] == 1;
-    part.e = alone ? vector(own * part.e0) : vector(foot - cloud_->x[i].xyz());
+    return there * cloud_->vectors.at(areaField[s])[i].xyz();
 }
 
-vector solidSurface::onSurface(int s, label i, const List<vec4>& u) const
+scalar solidSurface::flux(const List<vec4>& u, const List<tensor>& cofactor,
+                          const List<char>& zones) const
 {
-    const feet& f = feet_[s];
-    vector at = vector::Zero();
-    for (label k = f.start[i]; k < f.start[i + 1]; ++k)
-        at += f.weight[k] * (maps_[f.image[k]].R * u[f.source[k]].xyz());
-    return at;
+    return parallelSum(cloud_->nSolid(), [&](label begin, label end) {
+        scalar sum = 0;
+        for (label i = begin; i < end; ++i)
+            for (const int s : {0, 1})
+            {
+                if (part_[s][i].side < 0 || !zones[part_[s][i].side]) continue;
+                vector at = vector::Zero();
+                // what is clamped moves as one up to its edge, whatever its neighbours' motion extrapolates to
+                const feet& f = feet_[s];
+                if (cloud_->uFixed[i]) at = u[i].xyz();
+                else
+                    for (label k = f.start[i]; k < f.start[i + 1]; ++k)
+                        at += f.weight[k] * (turn_[f.image[k]] * u[f.source[k]].xyz());
+                sum -= areaVector(s, i, cofactor).dot(at);
+            }
+        return sum;
+    });
 }
 
 scalar solidSurface::area(const List<char>& zones) const
@@ -224,7 +209,8 @@ scalar solidSurface::area(const List<char>& zones) const
     return sum;
 }
 
-void solidSurface::setupParticle(label i, const smoothingKernel& kernel, const List<tensor>& F)
+void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
+                                 const List<tensor>& cofactor)
 {
     const particleCloud& cloud = *cloud_;
     for (const int s : {0, 1})
@@ -234,7 +220,9 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel, const L
         part = sided();
         part.side = int(S0[3]) - 1, part.e0 = cloud.vectors.at(wayField[s])[i].xyz();
         if (part.side < 0) continue;
-        carry(s, i, F[i]);
+        part.S = areaVector(s, i, cofactor);
+        // F = J (cof F)^-T, and det cof F = J^2
+        part.e = std::sqrt(cofactor[i].determinant()) * cofactor[i].inverse().transpose() * part.e0;
         scalar sum = 0;
         const label m = label(start_[i + 1] - start_[i]);
         scalar* w = weight_[s].data() + start_[i];
@@ -249,40 +237,27 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel, const L
     }
 }
 
-void solidSurface::loads(const List<vec4>& up, List<vec4>& against) const
+void solidSurface::loads(const List<vec4>& up, List<vec4>& Q, List<tensor>& P) const
 {
     const label nSolid = cloud_->nSolid();
-    for (const int s : {0, 1}) pressed_[s].assign(nSolid, vec4{});
-    against.resize(nSolid);
+    const scalar perVolume = 1 / cloud_->volume();
+    Q.resize(nSolid), P.resize(nSolid);
     parallelFor(
         nSolid,
         [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
+            {
+                Q[i] = vec4{}, P[i].setZero();
                 for (const int s : {0, 1})
                 {
-                    if (part_[s][i].side < 0) continue;
+                    const sided& part = part_[s][i];
+                    if (part.side < 0) continue;
                     scalar p = 0;
                     const scalar* w = weight_[s].data() + start_[i];
                     for (std::int64_t k = list_->mid[i]; k < list_->start[i + 1]; ++k)
                         p += *w++ * up[list_->index[k]].s[3];
-                    pressed_[s][i] = vec4::from(p * part_[s][i].S);
-                }
-        },
-        256);
-    parallelFor(
-        nSolid,
-        [&](label begin, label end) {
-            for (label l = begin; l < end; ++l)
-            {
-                against[l] = vec4{};
-                for (label k = firstCarried_[l]; k < firstCarried_[l + 1]; ++k)
-                {
-                    const carriedFoot& f = carried_[k];
-                    const vec4& force = pressed_[f.side][f.particle];
-                    if (f.image == 0) against[l].s += f.weight * force.s;
-                    else
-                        against[l].s +=
-                            f.weight * vec4::from(maps_[f.image].R.transpose() * force.xyz()).s;
+                    Q[i].s += p * vec4::from(part.S).s;
+                    P[i] += p * perVolume * part.S * part.e0.transpose();
                 }
             }
         },
@@ -299,7 +274,7 @@ void solidSurface::forShares(const Visit& visit) const
             if (part_[s][i].side < 0) continue;
             const scalar* w = weight_[s].data() + start_[i];
             for (std::int64_t k = list_->mid[i]; k < list_->start[i + 1]; ++k, ++w)
-                if (*w != 0) visit(i, s, list_->index[k], *w);
+                if (*w != 0) visit(i, part_[s][i], list_->index[k], *w);
         }
 }
 
@@ -308,8 +283,7 @@ void solidSurface::shares(List<vec4>& b, List<tensor>& moment) const
     const particleCloud& cloud = *cloud_;
     const scalar perVolume = 1 / cloud.volume();
     b.assign(cloud.n(), vec4{}), moment.assign(cloud.n(), tensor::Zero());
-    forShares([&](label k, int s, label j, scalar w) {
-        const sided& part = part_[s][k];
+    forShares([&](label k, const sided& part, label j, scalar w) {
         vector S = part.S, way = cloud.x[k].xyz() + part.e - cloud.x[j].xyz();
         if (j >= cloud.n())
         {
@@ -322,24 +296,18 @@ void solidSurface::shares(List<vec4>& b, List<tensor>& moment) const
     });
 }
 
-void solidSurface::addFlux(const List<vec4>& u, List<scalar>& div) const
+void solidSurface::addFlux(const List<vec4>& u, const List<tensor>& dF, List<scalar>& div) const
 {
     const scalar perVolume = 1 / cloud_->volume();
-    List<scalar> gives[2];
-    for (const int s : {0, 1})
-    {
-        gives[s].resize(cloud_->nSolid(), 0);
-        parallelFor(
-            cloud_->nSolid(),
-            [&](label begin, label end) {
-                for (label i = begin; i < end; ++i)
-                    if (part_[s][i].side >= 0)
-                        gives[s][i] = perVolume * part_[s][i].S.dot(onSurface(s, i, u));
-            },
-            256);
-    }
-    forShares(
-        [&](label k, int s, label j, scalar w) { div[cloud_->ownerOf(j)] -= w * gives[s][k]; });
+    label last = -1;
+    int side = -1;
+    scalar gives = 0;
+    forShares([&](label k, const sided& part, label j, scalar w) {
+        if (k != last || part.side != side)
+            gives = perVolume * part.S.dot(u[k].xyz() + dF[k] * part.e0), last = k,
+            side = part.side;
+        div[cloud_->ownerOf(j)] -= w * gives;
+    });
 }
 
 }  // namespace ispf

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volumeLedger.H"
 #include "densityFeedback.H"
+#include "enclosedFluid.H"
 
 #include <ostream>
 
@@ -10,8 +11,8 @@ namespace ispf
 namespace
 {
 
-const List<word> titles = {"swept",   "cavity",       "openNet",    "wall",
-                           "control", "wallFeedback", "wallDefect", "fluidFeedback"};
+const List<word> titles = {"swept",        "cavity", "openNet",    "wall",         "control",
+                           "wallFeedback", "defect", "wallDefect", "fluidFeedback"};
 
 }  // namespace
 
@@ -104,8 +105,9 @@ void volumeLedger::writeLine()
     open *= c_.cloud.volume() * c_.walls->symmetryFactor();
     file_.begin(c_.time.value());
     const scalar wall = wallVolume() - wall0_, feedback = wallFeedback();
-    for (const scalar v : {swept(), cavityChange(), open, wall, controlled_, feedback,
-                           booked(c_, solidDefect), booked(c_, fluidFeedback)})
+    for (const scalar v :
+         {swept(), cavityChange(), open, wall, controlled_, feedback, booked(c_, divergenceDefect),
+          booked(c_, solidDefect), booked(c_, fluidFeedback)})
         file_ << v;
     file_.endRow();
     const auto inMm = [&](scalar v) {

@@ -12,17 +12,16 @@ namespace
 
 using matrix = Eigen::MatrixXd;
 using row = Eigen::RowVectorXd;
-using values = Eigen::Matrix<scalar, 4, Eigen::Dynamic>;
 
 // Singular values below this share of the greatest: linear modes that the particles do not span (one
 // layer), quadratic modes that would amplify noise (two layers)
 constexpr scalar linearCut = 1e-6, quadraticCut = 0.02;
 
-// The columns as functions of the particles, their values at the point itself, and their slopes there
+// The columns as functions of the particles, and their values at the point itself
 struct basis
 {
     matrix columns;
-    values atPoint;
+    row atPoint;
 
     void removeFrom(basis& other) const
     {
@@ -47,16 +46,15 @@ basis orthonormal(const basis& b, scalar cut, scalar greatest)
 
 }  // namespace
 
-followed follow(const List<vector>& r)
+List<scalar> followWeights(const List<vector>& r)
 {
     const Eigen::Index n = Eigen::Index(r.size());
     Eigen::VectorXd root(n);  // of the fit's weight
     for (Eigen::Index j = 0; j < n; ++j) root[j] = std::max(0.0, 1 - r[j].norm());
     if (!(root.norm() > 0)) return {};
 
-    basis one{root, values::Zero(4, 1)}, linear{matrix(n, 3), values::Zero(4, 3)};
-    basis quadratic{matrix(n, 6), values::Zero(4, 6)};
-    one.atPoint(0, 0) = 1, linear.atPoint.bottomRows(3).setIdentity();
+    basis one{root, row::Ones(1)}, linear{matrix(n, 3), row::Zero(3)};
+    basis quadratic{matrix(n, 6), row::Zero(6)};
     for (Eigen::Index j = 0; j < n; ++j)
     {
         const vector& x = r[j];
@@ -73,13 +71,11 @@ followed follow(const List<vector>& r)
     linear.removeFrom(quadratic);
     quadratic = orthonormal(quadratic, quadraticCut, scale);
 
-    const matrix w = root.asDiagonal() * (one.columns * one.atPoint.transpose() +
-                                          linear.columns * linear.atPoint.transpose() +
-                                          quadratic.columns * quadratic.atPoint.transpose());
-    followed f;
-    for (Eigen::Index j = 0; j < n; ++j)
-        f.weight.push_back(w(j, 0)), f.slope.push_back(w.row(j).tail(3).transpose());
-    return f;
+    Eigen::VectorXd w = one.columns * one.atPoint.transpose() +
+                        linear.columns * linear.atPoint.transpose() +
+                        quadratic.columns * quadratic.atPoint.transpose();
+    w.array() *= root.array();
+    return List<scalar>(w.data(), w.data() + n);
 }
 
 }  // namespace ispf

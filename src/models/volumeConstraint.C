@@ -22,28 +22,29 @@ void volumeConstraint::setup(const List<tensor>& F)
         256);
 }
 
-void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ) const
+void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ, List<tensor>& dF) const
 {
-    gradient_.applyLinear(u, work_);
-    dJ.resize(work_.size());
-    for (size_t i = 0; i < work_.size(); ++i) dJ[i] = cofactor_[i].cwiseProduct(work_[i]).sum();
+    gradient_.applyLinear(u, dF);
+    dJ.resize(dF.size());
+    for (size_t i = 0; i < dF.size(); ++i) dJ[i] = cofactor_[i].cwiseProduct(dF[i]).sum();
 }
 
 // F is linear and its cofactor at most quadratic in time, for which Simpson's rule is exact
-void volumeConstraint::overStep(const List<vec4>& u, scalar dt, List<scalar>& missed) const
+void volumeConstraint::overStep(const List<vec4>& u, scalar dt, List<tensor>& mean,
+                                List<scalar>& missed) const
 {
     gradient_.applyLinear(u, work_);
-    missed.resize(work_.size());
+    mean.resize(work_.size()), missed.resize(work_.size());
     parallelFor(
         label(work_.size()),
         [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
             {
                 const tensor change = dt * work_[i];
-                const tensor mean = (cofactor_[i] + 4 * cofactorOf(F_[i] + 0.5 * change) +
-                                     cofactorOf(F_[i] + change)) /
-                                    6;
-                missed[i] = (mean - cofactor_[i]).cwiseProduct(change).sum();
+                mean[i] = (cofactor_[i] + 4 * cofactorOf(F_[i] + 0.5 * change) +
+                           cofactorOf(F_[i] + change)) /
+                          6;
+                missed[i] = (mean[i] - cofactor_[i]).cwiseProduct(change).sum();
             }
         },
         256);

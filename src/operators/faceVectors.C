@@ -376,8 +376,8 @@ private:
                 weight_[i] = 1 / scalar(strips_[k].members.size());
         }
     }
-    // The mean over each body from f of what is closed: areas of a boundary that do not add up have no cell to go to.
-    // A strip takes what is left of its body
+    // The mean over each body from f of what is closed, along directions that symmetry planes do not turn: areas of a
+    // boundary that do not add up have no cell to go to.  A strip takes what is left of its body
     void removeSums(List<vec4>& f, bool keepsStrips = true) const
     {
         List<simd4> sum(bodies_.n, simd4{});
@@ -386,9 +386,12 @@ private:
             if (closed_[i]) sum[bodies_.of[i]] += f[i].s, ++count[bodies_.of[i]];
         for (const strip& s : strips_)
             if (keepsStrips && !s.members.empty()) count[bodies_.of[s.members.front()]] = 0;
+        const tensor free = cloud_.freeDirections();
+        for (label body = 0; body < bodies_.n; ++body)
+            sum[body] = count[body] > 0 ? vec4::from(free * vec4{sum[body]}.xyz() / count[body]).s
+                                        : simd4{};
         forMedium([&](label i) {
-            if (const label body = bodies_.of[i]; closed_[i] && count[body] > 0)
-                f[i].s -= sum[body] / scalar(count[body]);
+            if (closed_[i]) f[i].s -= sum[bodies_.of[i]];
         });
     }
     static simd4 total(const strip& s, const List<vec4>& f)

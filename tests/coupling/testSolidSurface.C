@@ -94,14 +94,19 @@ struct shell
         solidSurface surface;
         surface.initialise(cloud, list, F);
         surface.setup(cloud, list, *kernel, F);
-        List<vec4> unit(cloud.n()), against;
+        List<vec4> unit(cloud.n()), Q;
+        List<tensor> P;
         for (label i = 0; i < cloud.n(); ++i) unit[i][3] = cloud.zone[i] == zone;
-        surface.loads(unit, against);
+        surface.loads(unit, Q, P);
         scalar sum = 0;
         for (label i = 0; i < cloud.nSolid(); ++i)
         {
             const vector x = cloud.x[i].xyz();
-            sum += against[i].xyz().dot(x) / std::pow(x.norm(), cloud.nDims);
+            const scalar r = x.norm(), d = cloud.nDims;
+            tensor slope = (tensor::Identity() - d / (r * r) * x * x.transpose()) / std::pow(r, d);
+            if (d == 2) slope(2, 2) = 0;
+            sum += Q[i].xyz().dot(x) / std::pow(r, d) +
+                   cloud.volume() * (P[i].array() * slope.array()).sum();
         }
         return sum / (cloud.nDims == 3 ? 4 * M_PI : 2 * M_PI);
     }

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the histories say; "nan" where a value is no number.  Variables: period, top (time of the full stroke within it) [s];
 # cycles, as many as were asked for, 2 by default; stroke [m3]; rest, the cavity's volume, and wall, the solid's [m3].
-# Input: diameter.dat (time, dD/D), volume.dat (time, swept, cavity, openNet, wall, control, wallFeedback,
+# Input: diameter.dat (time, dD/D), volume.dat (time, swept, cavity, openNet, wall, control, wallFeedback, defect,
 # wallDefect, fluidFeedback), pressure.dat (time, p/G)
 function abs(a) { return a < 0 ? -a : a }
 function say(name, value) { if (value == "nan") print name, value; else printf "%s %.6g\n", name, value }
@@ -40,8 +40,8 @@ function largestLess(file, column, other,    i, v, most) {
 }
 # The ledger in row k and the cavity's defect [% of the stroke], as it is and less what control has put in
 function ledger(when, name, k,    c, title) {
-    split("time swept cavity openNet wall control wallFeedback wallDefect fluidFeedback", title, " ")
-    for (c = 2; c <= 9; ++c) say(when "." title[c], 100*row["volume", k, c]/stroke)
+    split("time swept cavity openNet wall control wallFeedback defect wallDefect fluidFeedback", title, " ")
+    for (c = 2; c <= 10; ++c) say(when "." title[c], 100*row["volume", k, c]/stroke)
     say(name, 100*(row["volume", k, 3] - row["volume", k, 2])/stroke)
     say("own." name, 100*(row["volume", k, 3] - row["volume", k, 2] - row["volume", k, 6])/stroke)
 }
@@ -74,7 +74,7 @@ END {
         if (wall) {
             say("wallVolumeChange", times(100/wall, largest("volume", 5)))
             say("wallFeedback", times(100/wall, largest("volume", 7)))
-            say("wallDefect", times(100/wall, largest("volume", 8)))
+            say("wallDefect", times(100/wall, largest("volume", 9)))
             say("own.wallVolumeChange", times(100/wall, largestLess("volume", 5, 7)))
         }
     }

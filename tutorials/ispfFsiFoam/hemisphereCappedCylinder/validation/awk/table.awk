@@ -51,6 +51,7 @@ function ledger() {
     ledgerRow("gained by the solid", "wall")
     ledgerRow("injected by the control term", "control")
     ledgerRow("injected by the wall's volume feedback", "wallFeedback")
+    ledgerRow("made good of the divergence's defect", "defect")
     ledgerRow("made good of the wall's, as it turns", "wallDefect")
     ledgerRow("put into fluid that open faces drain", "fluidFeedback")
     printf "%-50s %13s  %13s\n", "cavity - plunger", share("volumeDefectPeak"), share("volumeDefectEnd")
