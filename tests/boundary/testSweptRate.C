@@ -82,3 +82,34 @@ TEST_CASE("a plane between planes, one that nothing bounds, and one that slides 
     const rates sliding(0, around + plane + "velocity (0 1 0); }");
     CHECK(sliding.at(0, 0.5)[0] == 0);
 }
+
+TEST_CASE("a piston in a round bore: its surface elements push as much as it sweeps")
+{
+    constexpr scalar R = 4.3;
+    const auto round = [](scalar r, scalar t, scalar z) {
+        return vector(r * std::cos(2 * M_PI * t), r * std::sin(2 * M_PI * t), z);
+    };
+    folder files;
+    files.surface("piston", parametric([&](scalar s, scalar t) { return round(R * s, t, 0); }, 5,
+                                       48, [](const vector&) { return vector(0, 0, -1); }));
+    files.surface("bore", parametric([&](scalar s, scalar t) { return round(R, t, 12 * s - 2); }, 8,
+                                     48, [](const vector& x) { return vector(x[0], x[1], 0); }));
+    particleCloud cloud = fluid(
+        lattice(
+            dx, {-5, -5, 0}, {5, 5, 8},
+            [](const vector& x) { return x.head<2>().norm() < R - 0.3 && x[2] > 0.3 && x[2] < 8; }),
+        dx);
+    boundary walls(files.path,
+                   dictionary::fromString(
+                       "piston { type wall; representation mirror; motion { direction (0 0 1); "
+                       "displacement polynomial ((0.1 1)); } } "
+                       "bore { type wall; representation mirror; }"),
+                   cloud, 2.6);
+    walls.setStep(0, 0.5);
+    walls.updateGhosts(cloud);
+    scalar pushes = 0;
+    for (const surfaceElement& e : cloud.surface) pushes -= e.S.dot(e.u);
+    // elements at the rim reach to the bore and not beyond it
+    CHECK(pushes == relative(walls.swept(cloud).net[0], 1e-6));
+    CHECK(pushes == relative(0.1 * M_PI * R * R, 0.005));
+}
