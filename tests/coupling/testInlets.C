@@ -161,9 +161,12 @@ scalar inside(const boxCase& b, const particleCloud& cloud)
 
 }  // namespace
 
-// Runs that differ by rounding come to differ altogether; none may jump.  kicks [dx]: of the start
+// Runs that differ by rounding come to differ altogether, by 0.2 % of the volume; none may jump, and they may not drift together.
+// kicks [dx]: of the start
 TEST_CASE("a flow rate that reverses ten times: the channel keeps its volume, what enters leaves")
 {
+    scalar gained = 0;
+    int runs = 0;
     for (const auto& [coupling, kicks] : {std::pair("projection", 2), std::pair("monolithic", 16)})
         for (int kick = 0; kick < kicks; ++kick)
         {
@@ -189,10 +192,12 @@ TEST_CASE("a flow rate that reverses ten times: the channel keeps its volume, wh
                     highest = std::max(highest, std::abs(r.c.cloud.Up[i][3]));
             }
             CHECK(missing < 0.03e-3);
-            CHECK(inside(b, r.c.cloud) == relative(before, 0.005));
+            CHECK(inside(b, r.c.cloud) == relative(before, 0.01));
+            gained += inside(b, r.c.cloud) / before - 1, ++runs;
             // rho dU/dt L and friction together; what a jump of the flow in one step makes is 1000 Pa
             CHECK(highest < 200);
         }
+    CHECK(std::abs(gained / runs) < 0.002);
 }
 
 TEST_CASE("fluid that cannot leave is refused, with both couplings")
