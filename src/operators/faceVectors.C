@@ -468,7 +468,7 @@ private:
             coarse.of[i] = blocks.try_emplace(key, label(blocks.size())).first->second;
         }
         coarse.n = label(blocks.size());
-        const int nFactors = cloud_.freeDirections().isIdentity(1e-9) ? 1 : cloud_.nDims;
+        const int nFactors = cloud_.freeDirections().isIdentity(1e-9) ? 1 : 3;
         const auto sums = [&](label begin, label end) {
             List<Eigen::MatrixXd> part(nFactors, Eigen::MatrixXd::Zero(coarse.n, coarse.n));
             addCoarse(coarse.of, within_.first + begin, within_.first + end, part);
