@@ -377,15 +377,15 @@ private:
         }
     }
     // The mean over each body from f of what is closed, along directions that symmetry planes do not turn: areas of a
-    // boundary that do not add up have no cell to go to.  A strip takes what is left of its body
-    void removeSums(List<vec4>& f, bool keepsStrips = true) const
+    // boundary that do not add up have no cell to go to.  In a body with an open face they go beyond it
+    void removeSums(List<vec4>& f, bool keepsOpen = true) const
     {
         List<simd4> sum(bodies_.n, simd4{});
         List<label> count(bodies_.n, 0);
         for (label i = within_.first; i < cloud_.n(); ++i)
             if (closed_[i]) sum[bodies_.of[i]] += f[i].s, ++count[bodies_.of[i]];
-        for (const strip& s : strips_)
-            if (keepsStrips && !s.members.empty()) count[bodies_.of[s.members.front()]] = 0;
+        for (label i = within_.first; i < cloud_.n() && keepsOpen; ++i)
+            if (cloud_.beyondOpen(i)) count[bodies_.of[i]] = 0;
         const tensor free = cloud_.freeDirections();
         for (label body = 0; body < bodies_.n; ++body)
             sum[body] = count[body] > 0 ? vec4::from(free * vec4{sum[body]}.xyz() / count[body]).s
