@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "faceVectors.H"
+#include "blockLaplacian.H"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
 namespace ispf
 {
@@ -150,6 +149,9 @@ public:
     {
         poor_.assign(cloud.n(), 0), closed_.assign(cloud.n(), 0), share_.assign(cloud.nAll(), 1);
         bodies_ = connectedBodies(cloud, list, within);
+        drains_.assign(bodies_.n, 0);
+        for (label i = within.first; i < cloud.n(); ++i)
+            if (cloud.beyondOpen(i)) drains_[bodies_.of[i]] = 1;
         gatherStrips();
     }
 
@@ -214,7 +216,7 @@ public:
         List<columns> moment(cloud_.n());
         forRanges([&](label i, label end) { momentRange(sight(), i, end, moment.data()); });
         forMedium([&](label i) {
-            if (poor_[i] || isStrip(i)) return;
+            if (poor_[i] || inStrip_[i]) return;
             const columns change = columns::of((one - moment[i].matrix() - M[i]) * within_.one[i]);
             for (int a = 0; a < 3; ++a) B_[i].c[a] += change.c[a];
         });
@@ -241,20 +243,15 @@ public:
             for (const label i : s.members) r[i].s -= s.half.s;
         const auto holds = [&](label i) { return (closed_[i] ? level : stripLevel) * diagonal[i]; };
         forMedium([&](label i) { r[i].s -= holds(i) * psi_[i].s; });
-        keepFree(r), removeSums(r);
-        const coarseLevel coarse = makeCoarse(diagonal);
-        const auto ofBlocks = [&] {  // what the blocks lack, z = P A_c^-1 P^T r
-            List<Eigen::Vector3d> at(coarse.n, Eigen::Vector3d::Zero());
-            for (label i = within_.first; i < n; ++i)
-                if (const label c = coarse.of[i]; c >= 0) at[c] += weight_[i] * r[i].xyz();
-            coarse.solve(at);
-            forMedium([&](label i) {
-                const label c = coarse.of[i];
-                z[i] = c >= 0 ? vec4::from(at[c]) : vec4{};
-            });
-        };
+        // areas of a boundary that do not add up have no cell to go to; in a body with an open face they go beyond it
+        keepFree(r), removeMeans(r, [&](label body) { return !drains_[body]; });
+        List<scalar> ofBlock(n);
+        forMedium([&](label i) {
+            ofBlock[i] = (closed_[i] ? regular : stripLevel) * weight_[i] * diagonal[i];
+        });
+        const blockLaplacian blocks({cloud_, list_, within_, bodies_, closed_, inStrip_}, ofBlock);
         const auto precondition = [&] {
-            ofBlocks();
+            blocks.solve(r, weight_, z);
             forMedium([&](label i) { z[i].s += r[i].s / diagonal[i]; });
             keepFree(z);
         };
@@ -277,7 +274,7 @@ public:
             forRanges([&](label i, label end) { graphRange(sight(), p.data(), i, end, q.data()); });
             sumStrips(q, [&](label i, label j, scalar w) { return w * (p[i].s - p[j].s); });
             forMedium([&](label i) { q[i].s += holds(i) * p[i].s; });
-            keepFree(q), removeSums(q);
+            keepFree(q);
             const scalar pq = dot(p, q);
             if (!(pq > 0)) break;
             const scalar alpha = rz / pq;
@@ -288,9 +285,9 @@ public:
             forMedium([&](label i) { p[i].s = z[i].s + next / rz * p[i].s; });
             rz = next;
         }
-        // what is left shall have no sum over any block.  Across symmetry planes blocks are stiffer than makeCoarse knows
+        // what is left shall have no sum over any block.  Planes askew to the axes are not exact in blockLaplacian
         const tensor free = cloud_.freeDirections();
-        ofBlocks();
+        blocks.solve(r, weight_, z);
         forMedium([&](label i) { psi_[i].s += vec4::from(free * z[i].xyz()).s; });
         fill(psi_);
     }
@@ -344,14 +341,14 @@ public:
             else c[i] = vec4{};
         }
         result.defect = cloud_.dx * std::sqrt(squares / std::max<label>(1, nClosed));
-        removeSums(c, false);
+        removeMeans(c, [](label) { return true; });
         return c;
     }
 
 private:
-    // Shares of the diagonal that keep the level of psi, which has no effect: of particles, and of strips, which take what
-    // areas do not add up to
-    static constexpr scalar level = 1e-9, stripLevel = 1e-5;
+    // Shares of the diagonal that keep the level of psi, which has no effect: of particles, of blocks, and of strips, which
+    // take what areas do not add up to
+    static constexpr scalar level = 1e-9, regular = 1e-8, stripLevel = 1e-5;
 
     // Fluid beyond an open face is one cell
     struct strip
@@ -362,11 +359,11 @@ private:
 
     void gatherStrips()
     {
-        weight_.assign(cloud_.n(), 1);
+        weight_.assign(cloud_.n(), 1), inStrip_.assign(cloud_.n(), 0);
         strips_.resize(cloud_.stripArea.size());
         for (label i = within_.first; i < cloud_.n(); ++i)
             if (const label k = cloud_.stripOf(i); k > 0 && cloud_.stripArea[k].allFinite())
-                strips_[k].members.push_back(i);
+                strips_[k].members.push_back(i), inStrip_[i] = 1;
         const tensor free = cloud_.freeDirections();
         for (size_t k = 0; k < strips_.size(); ++k)
         {
@@ -376,22 +373,21 @@ private:
                 weight_[i] = 1 / scalar(strips_[k].members.size());
         }
     }
-    // The mean over each body from f of what is closed, along directions that symmetry planes do not turn: areas of a
-    // boundary that do not add up have no cell to go to.  In a body with an open face they go beyond it
-    void removeSums(List<vec4>& f, bool keepsOpen = true) const
+    // From f of what is closed its mean over each body, along directions that symmetry planes do not turn
+    template <class Has>
+    void removeMeans(List<vec4>& f, const Has& has) const
     {
-        List<simd4> sum(bodies_.n, simd4{});
-        List<label> count(bodies_.n, 0);
+        List<vec4> mean(bodies_.n);  // and the number of particles
         for (label i = within_.first; i < cloud_.n(); ++i)
-            if (closed_[i]) sum[bodies_.of[i]] += f[i].s, ++count[bodies_.of[i]];
-        for (label i = within_.first; i < cloud_.n() && keepsOpen; ++i)
-            if (cloud_.beyondOpen(i)) count[bodies_.of[i]] = 0;
+            if (closed_[i]) mean[bodies_.of[i]].s += f[i].s * inSpace + simd4{0, 0, 0, 1};
         const tensor free = cloud_.freeDirections();
         for (label body = 0; body < bodies_.n; ++body)
-            sum[body] = count[body] > 0 ? vec4::from(free * vec4{sum[body]}.xyz() / count[body]).s
-                                        : simd4{};
+        {
+            const scalar count = has(body) ? mean[body][3] : 0;
+            mean[body] = count > 0 ? vec4::from(free * mean[body].xyz() / count) : vec4{};
+        }
         forMedium([&](label i) {
-            if (closed_[i]) f[i].s -= sum[bodies_.of[i]];
+            if (closed_[i]) f[i].s -= mean[bodies_.of[i]].s;
         });
     }
     static simd4 total(const strip& s, const List<vec4>& f)
@@ -409,7 +405,7 @@ private:
             simd4 sum = {};
             for (const label i : s.members)
                 for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
-                    if (const label j = list_.index[k]; !isStrip(cloud_.ownerOf(j)))
+                    if (const label j = list_.index[k]; !inStrip_[cloud_.ownerOf(j)])
                         sum += term(i, j, -list_.F[k]);
             for (const label i : s.members) f[i].s = sum;
         }
@@ -420,98 +416,9 @@ private:
         const tensor free = cloud_.freeDirections();
         forMedium([&](label i) {
             if (closed_[i]) return;
-            f[i] = isStrip(i) ? vec4::from(free * f[i].xyz()) : vec4{};
+            f[i] = inStrip_[i] ? vec4::from(free * f[i].xyz()) : vec4{};
         });
     }
-    bool isStrip(label i) const
-    {
-        const label k = cloud_.stripOf(i);
-        return k > 0 && !strips_[k].members.empty();
-    }
-    // The graph's Laplacian over blocks of particles, each with one value; a strip is a block.  Images turn psi, so that each
-    // component has its own
-    struct coarseLevel
-    {
-        label n = 0;
-        List<label> of;                             // block of a particle, -1: none
-        List<Eigen::LLT<Eigen::MatrixXd>> factors;  // of all components, or of each
-        void solve(List<Eigen::Vector3d>& f) const
-        {
-            Eigen::MatrixXd all(n, 3);
-            for (label c = 0; c < n; ++c) all.row(c) = f[c].transpose();
-            if (factors.size() == 1) all = factors[0].solve(all).eval();
-            else
-                for (size_t d = 0; d < factors.size(); ++d)
-                    all.col(d) = factors[d].solve(all.col(d)).eval();
-            for (label c = 0; c < n; ++c) f[c] = all.row(c).transpose();
-        }
-    };
-
-    coarseLevel makeCoarse(const List<scalar>& diagonal) const
-    {
-        constexpr scalar mostBlocks = 300, leastInBlock = 30, regular = 1e-8;
-        coarseLevel coarse;
-        coarse.of.assign(cloud_.n(), -1);
-        const scalar count = scalar(cloud_.n() - within_.first);
-        const scalar edge =
-            cloud_.dx * std::pow(std::max(leastInBlock, count / mostBlocks), 1.0 / cloud_.nDims);
-        std::map<std::array<label, 4>, label> blocks;
-        for (label i = within_.first; i < cloud_.n(); ++i)
-        {
-            std::array<label, 4> key = {-1, cloud_.stripOf(i), 0, 0};
-            if (closed_[i])
-            {
-                key[0] = bodies_.of[i];
-                for (int d = 0; d < 3; ++d) key[d + 1] = label(std::floor(cloud_.x[i][d] / edge));
-            }
-            else if (!isStrip(i)) continue;
-            coarse.of[i] = blocks.try_emplace(key, label(blocks.size())).first->second;
-        }
-        coarse.n = label(blocks.size());
-        const int nFactors = cloud_.freeDirections().isIdentity(1e-9) ? 1 : 3;
-        const auto sums = [&](label begin, label end) {
-            List<Eigen::MatrixXd> part(nFactors, Eigen::MatrixXd::Zero(coarse.n, coarse.n));
-            addCoarse(coarse.of, within_.first + begin, within_.first + end, part);
-            return part;
-        };
-        List<Eigen::MatrixXd> A(nFactors, Eigen::MatrixXd::Zero(coarse.n, coarse.n));
-        for (const List<Eigen::MatrixXd>& part : parallelParts(cloud_.n() - within_.first, sums))
-            for (int d = 0; d < nFactors; ++d) A[d] += part[d];
-        for (Eigen::MatrixXd& Ad : A)
-        {
-            for (label i = within_.first; i < cloud_.n(); ++i)
-                if (const label c = coarse.of[i]; c >= 0)
-                    Ad(c, c) += (closed_[i] ? regular : stripLevel) * weight_[i] * diagonal[i];
-            coarse.factors.emplace_back(Ad);
-        }
-        return coarse;
-    }
-
-    void addCoarse(const List<label>& of, label from, label to, List<Eigen::MatrixXd>& A) const
-    {
-        const tensor free = cloud_.freeDirections();
-        const auto add = [&](label i, label j, scalar w, int d) {
-            const label owner = cloud_.ownerOf(j), block = of[i], other = of[owner];
-            const scalar turned = j < cloud_.n() ? 1 : cloud_.ruleOf(j).R(d, d);
-            const bool fixed = isStrip(owner) && free(d, d) < 0.5;
-            if (other == block) A[d](block, block) += w * (1 - turned);
-            else
-            {
-                A[d](block, block) += w;
-                if (other >= 0 && !fixed) A[d](block, other) -= w * turned;
-            }
-        };
-        for (label i = from; i < to; ++i)
-        {
-            if (of[i] < 0) continue;
-            const auto held = [&](size_t d) { return isStrip(i) && free(d, d) < 0.5; };
-            for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
-                if (const label j = list_.index[k]; !isStrip(i) || !isStrip(cloud_.ownerOf(j)))
-                    for (size_t d = 0; d < A.size(); ++d)
-                        if (!held(d)) add(i, j, -list_.F[k], int(d));
-        }
-    }
-
     // sum_j w_ij, of a strip over those beyond it
     List<scalar> graphDiagonal() const
     {
@@ -521,10 +428,10 @@ private:
             for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
             {
                 const label other = cloud_.ownerOf(list_.index[k]);
-                if (!isStrip(i) || !isStrip(other)) sum -= list_.F[k];
+                if (!inStrip_[i] || !inStrip_[other]) sum -= list_.F[k];
             }
             if (sum > 0) diagonal[i] = sum;
-            else if (isStrip(i)) diagonal[i] = 0;
+            else if (inStrip_[i]) diagonal[i] = 0;
         });
         for (const strip& s : strips_)
         {
@@ -585,11 +492,12 @@ private:
     const medium& within_;
     List<columns> B_;
     List<vec4> psi_;
-    List<char> poor_, closed_;
+    List<char> poor_, closed_, inStrip_;
     List<scalar> share_,
         weight_;  // weight_: of a particle in a sum, one for all members of a strip
     List<strip> strips_;
     connectedBodies bodies_;
+    List<char> drains_;  // per body: an open face does
 };
 
 }  // namespace

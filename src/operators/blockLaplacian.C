@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "blockLaplacian.H"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace ispf
+{
+
+blockLaplacian::blockLaplacian(const graph& g, const List<scalar>& holds) : g_(g)
+{
+    findBlocks();
+    const label first = g_.within.first, end = g_.cloud.n();
+    const int nMatrices = g_.cloud.freeDirections().isIdentity(1e-9) ? 1 : 3;
+    const List<Eigen::MatrixXd> zero(nMatrices, Eigen::MatrixXd::Zero(n_, n_));
+    List<Eigen::MatrixXd> A = zero;
+    const auto ofPart = [&](label from, label to) {
+        List<Eigen::MatrixXd> part = zero;
+        addPairs(first + from, first + to, part);
+        return part;
+    };
+    for (const List<Eigen::MatrixXd>& part : parallelParts(end - first, ofPart))
+        for (int d = 0; d < nMatrices; ++d) A[d] += part[d];
+    for (Eigen::MatrixXd& ofComponent : A)
+    {
+        for (label i = first; i < end; ++i)
+            if (const label b = block_[i]; b >= 0) ofComponent(b, b) += holds[i];
+        factors_.emplace_back(ofComponent);
+    }
+}
+
+// Cubes of the particles of one body
+void blockLaplacian::findBlocks()
+{
+    constexpr scalar mostBlocks = 300, leastInBlock = 30;  // doc/constants.md
+    const particleCloud& cloud = g_.cloud;
+    const scalar count = scalar(cloud.n() - g_.within.first);
+    const scalar edge =
+        cloud.dx * std::pow(std::max(leastInBlock, count / mostBlocks), 1.0 / cloud.nDims);
+    block_.assign(cloud.n(), -1);
+    std::map<std::array<label, 4>, label> known;
+    for (label i = g_.within.first; i < cloud.n(); ++i)
+    {
+        std::array<label, 4> key = {-1, cloud.stripOf(i), 0, 0};
+        if (g_.closed[i])
+        {
+            key[0] = g_.bodies.of[i];
+            for (int d = 0; d < 3; ++d) key[d + 1] = label(std::floor(cloud.x[i][d] / edge));
+        }
+        else if (!g_.inStrip[i]) continue;
+        block_[i] = known.try_emplace(key, label(known.size())).first->second;
+    }
+    n_ = label(known.size());
+}
+
+// w_ij |psi_i - R psi_j|^2 of each pair, for the image j of a particle R its turn.  A strip has no psi in directions that
+// symmetry planes turn
+void blockLaplacian::addPairs(label from, label to, List<Eigen::MatrixXd>& A) const
+{
+    const particleCloud& cloud = g_.cloud;
+    const tensor free = cloud.freeDirections();
+    for (label i = from; i < to; ++i)
+    {
+        const label own = block_[i];
+        if (own < 0) continue;
+        for (std::int64_t k = g_.list.start[i]; k < (*g_.within.end)[i]; ++k)
+        {
+            const label j = g_.list.index[k], owner = cloud.ownerOf(j), other = block_[owner];
+            if (g_.inStrip[i] && g_.inStrip[owner]) continue;
+            const scalar w = -g_.list.F[k];
+            for (int d = 0; d < int(A.size()); ++d)
+            {
+                const bool turns = free(d, d) < 0.5;
+                if (g_.inStrip[i] && turns) continue;
+                A[d](own, own) += w;
+                if (other < 0 || (g_.inStrip[owner] && turns)) continue;
+                A[d](own, other) -= w * (j < cloud.n() ? 1 : cloud.ruleOf(j).R(d, d));
+            }
+        }
+    }
+}
+
+void blockLaplacian::solve(const List<vec4>& r, const List<scalar>& weight, List<vec4>& z) const
+{
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n_, 3);
+    for (label i = g_.within.first; i < g_.cloud.n(); ++i)
+        if (const label b = block_[i]; b >= 0) sums.row(b) += weight[i] * r[i].xyz().transpose();
+    if (factors_.size() == 1) sums = factors_[0].solve(sums).eval();
+    else
+        for (int d = 0; d < 3; ++d) sums.col(d) = factors_[d].solve(sums.col(d)).eval();
+    for (label i = g_.within.first; i < g_.cloud.n(); ++i)
+        z[i] = block_[i] >= 0 ? vec4::from(sums.row(block_[i]).transpose()) : vec4{};
+}
+
+}  // namespace ispf
