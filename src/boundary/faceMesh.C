@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "faceMesh.H"
 
-#include "halfSpace.H"
 #include "surfaceRefinement.H"
 #include "surfaceTopology.H"
 
@@ -13,7 +12,7 @@ namespace ispf
 faceMesh::faceMesh(triSurface surface, const imageGroup& group, const particleCloud& cloud)
     : tiny_(1e-4 * cloud.dx), slice_(cloud.nDims == 2), planes_(group.planes())
 {
-    for (const auto& [point, normal] : planes_) surface = clipped(surface, {point, normal});
+    surface = group.clipped(std::move(surface));
     surface.weld(tiny_);
     refine(surface, 0.5 * cloud.dx);
     search_ = surfaceSearch(std::move(surface));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "imageGroup.H"
+#include "halfSpace.H"
 
 #include <algorithm>
 #include <array>
@@ -98,6 +99,12 @@ List<std::pair<vector, vector>> imageGroup::planes() const
     List<std::pair<vector, vector>> planes;
     for (const side& s : sides_) planes.push_back({s.point, s.normal});
     return planes;
+}
+
+triSurface imageGroup::clipped(triSurface surface, scalar tolerance) const
+{
+    for (const side& s : sides_) surface = ispf::clipped(surface, {s.point, s.normal}, tolerance);
+    return surface;
 }
 
 scalar imageGroup::beyond(const vector& x) const

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "halfSpace.H"
 #include "patchSurface.H"
 
 #include <algorithm>
@@ -83,9 +82,7 @@ public:
     triangulatedSurface(triSurface surface, const imageGroup& group, scalar reach, bool twoSided)
         : reach_(reach), twoSided_(twoSided)
     {
-        // what lies beyond symmetry planes and cyclic sides comes again as an image
-        for (const auto& [point, normal] : group.planes())
-            surface = clipped(surface, {point, normal});
+        surface = group.clipped(std::move(surface));
         if (surface.empty())
             throw fatalError("The surface of patch " + join(surface.patchNames, " and ") +
                              " lies beyond the symmetry planes and cyclic sides, where there is no "

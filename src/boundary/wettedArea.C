@@ -42,12 +42,11 @@ void wettedArea::find(const wallSet& walls, const imageGroup& group, const parti
             planes_.push_back(index);
             continue;
         }
-        triSurface s = *b.surface->mesh();
+        triSurface s = group.clipped(*b.surface->mesh());
         refine(s, 1.5 * cloud.dx);
         for (label t = 0; t < s.size(); ++t)
         {
             vector centre = (s.corner(t, 0) + s.corner(t, 1) + s.corner(t, 2)) / 3;
-            if (group.beyond(centre) > 0) continue;  // an image
             if (cloud.nDims == 2) centre[2] = 0;
             const vector area = walls.perDepth(*b.surface) * s.areaVector(t);
             parts_.push_back({index, centre, s.normal(t), area});
