@@ -34,6 +34,13 @@ void boundary::setStepBehind(scalar t0, scalar t1)
     content_->walls.moveTo(t1);
 }
 
+openFace::movingWalls boundary::content::movingWalls() const
+{
+    return {walls.anyMoves(),
+            [&](const vector& x, scalar distance) { return walls.movingWithin(x, distance); },
+            [&](const vector& x, scalar distance) { return walls.movedOver(x, distance); }};
+}
+
 void boundary::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bodyForce) const
 {
     std::fill(cloud.pFixed.begin(), cloud.pFixed.end(), 0);
@@ -47,10 +54,9 @@ void boundary::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
     label number = 0;
     for (const openFace& face : content_->openFaces) face.setFlags(cloud, rho, bodyForce, ++number);
     cloud.strip.assign(cloud.n(), 0), cloud.stripArea.assign(1, vector::Zero());
-    for (const openFace& face : content_->openFaces)
-        face.setStrip(cloud, [&](const vector& x, scalar distance) {
-            return content_->walls.movingWithin(x, distance);
-        });
+    cloud.stripIntake.assign(1, 0);
+    const openFace::movingWalls moving = content_->movingWalls();
+    for (const openFace& face : content_->openFaces) face.setStrip(cloud, moving);
 }
 
 void boundary::clampSolids(particleCloud& cloud, const List<vec4>& x0, const dictionary& patches)
@@ -182,10 +188,7 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
     }
     const List<label> turned = c.putBack(cloud);
     for (size_t k = 0; k < turned.size(); ++k) c.balance[k].pushed += turned[k];
-    const openFace::movingWalls moving = {
-        c.walls.anyMoves(),
-        [&](const vector& x, scalar distance) { return c.walls.movingWithin(x, distance); },
-        [&](const vector& x, scalar distance) { return c.walls.movedOver(x, distance); }};
+    const openFace::movingWalls moving = c.movingWalls();
     for (size_t k = 0; k < c.openFaces.size(); ++k)
     {
         patchBalance& b = c.balance[c.openIndex[k]];

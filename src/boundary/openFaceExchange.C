@@ -83,8 +83,8 @@ openFace::census openFace::count(const particleCloud& cloud) const
     return c;
 }
 
-// Feet of the part of the strip that moving walls have passed over or stand in: none is missing there
-pointGrid openFace::passedOver(const movingWalls& walls) const
+// The samples of the strip that moving walls have passed over or stand in: none is missing there
+List<char> openFace::passedOver(const movingWalls& walls) const
 {
     List<char> over(samples_.size(), 0);
     if (walls.any)
@@ -94,10 +94,7 @@ pointGrid openFace::passedOver(const movingWalls& walls) const
                 for (label k = begin; k < end; ++k) over[k] = walls.over(samples_[k].x, 0);
             },
             256);
-    pointGrid feet(region_);
-    for (size_t k = 0; k < samples_.size(); ++k)
-        if (over[k]) feet.add(samples_[k].foot);
-    return feet;
+    return over;
 }
 
 // Spots whose nearest particle is about a spacing away come first: new particles then close up like
@@ -114,7 +111,10 @@ List<label> openFace::choose(const census& c, const movingWalls& walls) const
     const auto without = [&](const pointGrid& feet, const vector& at, scalar full, scalar radius) {
         return full - sum(feet, at, radius);
     };
-    const pointGrid passed = passedOver(walls);
+    pointGrid passed(region_);
+    const List<char> over = passedOver(walls);
+    for (size_t k = 0; k < samples_.size(); ++k)
+        if (over[k]) passed.add(samples_[k].foot);
     // what lacks in the layer lacks here in the proportion of the radii: counted within the smaller one it
     // would be mostly chance
     const scalar counted = std::hypot(region_, openLayer::depth * dx_);

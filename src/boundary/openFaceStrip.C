@@ -84,18 +84,18 @@ void openFace::setVelocity(particleCloud& cloud, label number) const
     for (const scalar q : givenFlux(cloud)) flux_ -= q;
 }
 
-void openFace::setStrip(particleCloud& cloud, const place& moves) const
+// The area of a face is the share of the strip's samples over which no moving wall has passed
+void openFace::setStrip(particleCloud& cloud, const movingWalls& walls) const
 {
-    const label first = label(cloud.stripArea.size());
-    const auto isMoving = [&](const sample& s) { return moves(s.foot, 2 * dx_); };
-    const bool varies = std::any_of(samples_.begin(), samples_.end(), isMoving);
-    for (const auto& [zone, area] : areas_)
-        cloud.stripArea.push_back(
-            varies ? vector::Constant(std::numeric_limits<scalar>::quiet_NaN()) : area);
+    firstStrip_ = label(cloud.stripArea.size());
+    const List<char> over = passedOver(walls);
+    const scalar open = 1 - scalar(std::count(over.begin(), over.end(), 1)) / scalar(over.size());
+    for (const auto& [zone, area] : areas_) cloud.stripArea.push_back(open * area);
+    cloud.stripIntake.resize(cloud.stripArea.size(), 0);
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
         if (const surfaceFoot& f = known_[i].foot; f.found && f.depth > 0)
             if (const auto found = areas_.find(cloud.zone[i]); found != areas_.end())
-                cloud.strip[i] = first + label(std::distance(areas_.begin(), found));
+                cloud.strip[i] = firstStrip_ + label(std::distance(areas_.begin(), found));
 }
 
 // Without fluid beyond the face nothing would enter or leave, and no one would be told
@@ -246,28 +246,6 @@ struct openFace::slopeBefore
     }
 };
 
-scalar openFace::fluxOf(const particleCloud& cloud, const valueBefore& velocity) const
-{
-    constexpr std::uint8_t any = 255;  // no zone has this number
-    scalar flux = 0;
-    if (mesh_.empty())  // what the strip carries
-    {
-        for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-            if (const surfaceFoot& f = known_[i].foot; f.found && f.depth > 0)
-                flux += cloud.volume() / depth_ * cloud.Up[i].xyz().dot(f.normal);
-        return flux;
-    }
-    const triSurface& s = mesh_.surface();
-    for (label t = 0; t < s.size(); ++t)
-    {
-        vector u = vector::Zero(), at = s.centre(t);
-        if (cloud.nDims == 2) at[2] = 0;  // where the particles are, however thick the slice
-        velocity.mean(at, any, u);
-        flux += mesh_.area(t) * u.dot(s.normal(t));
-    }
-    return flux;
-}
-
 // Walls apart, fluid beyond a given velocity has the pressure before the surface: it is told, and has no effect.
 // The slope of the pressure is carried on, and, where that is given, the strip takes the velocity before the
 // surface, averaged over 1.5 dx along it.  Over a wider reach the flow along the surface would run into a wall or
@@ -280,7 +258,8 @@ void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, sc
     if (!inflow_)
     {
         velocity.emplace(*this, cloud, [&](label i) { return cloud.Up[i].xyz(); });
-        flux_ = fluxOf(cloud, *velocity);
+        flux_ = 0;
+        for (size_t k = 0; k < areas_.size(); ++k) flux_ -= cloud.stripIntake[firstStrip_ + k];
     }
     else pressure.emplace(*this, cloud, [&](label i) { return vector(cloud.Up[i][3], 0, 0); });
     const slopeBefore slope(*this, cloud, friction, rho, dt);

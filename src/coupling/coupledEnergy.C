@@ -56,7 +56,7 @@ void coupledSystem::bookMomentum(const List<vec4>& before, const List<vec4>& spr
 void coupledSystem::bookPressure(const List<vec4>& before, scalar theta, const List<scalar>& q,
                                  const List<vec4>& drop, energyLedger& energy) const
 {
-    const particleCloud& cloud = c_.cloud;
+    particleCloud& cloud = c_.cloud;
     List<scalar> div, rows;
     rows_.divergence(phi_, div);
     List<vec4> gs;
@@ -70,6 +70,7 @@ void coupledSystem::bookPressure(const List<vec4>& before, scalar theta, const L
     {
         const scalar face = faces.empty() ? 0 : faces[i];
         const vector g = gp_[i].xyz() - (drop.empty() ? vector(vector::Zero()) : drop[i].xyz());
+        if (cloud.pHeld(i)) cloud.takeIn(i, rows[i] + all[i]);
         energy.bookRow(i, {phi_[i][3], rows[i] - div[i], rows[i] + all[i], q[i], all[i], face, g},
                        level, dt_);
     }

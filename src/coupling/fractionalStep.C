@@ -32,8 +32,8 @@ List<vector> points(const particleCloud& cloud)
 
 }  // namespace
 
-fractionalStep::fractionalStep(scalar rho, scalar mu, const word& viscosity, const dictionary& solution,
-                         bool wellStarted)
+fractionalStep::fractionalStep(scalar rho, scalar mu, const word& viscosity,
+                               const dictionary& solution, bool wellStarted)
     : rho_(rho), nu_(mu / rho)
 {
     const scalar reflection =
@@ -122,7 +122,7 @@ List<scalar> fractionalStep::divergence(particleCloud& cloud) const
 }
 
 void fractionalStep::project(particleCloud& cloud, const stencil& s, const List<scalar>& q,
-                          scalar cellSize, scalar dt)
+                             scalar cellSize, scalar dt)
 {
     const label n = cloud.n();
     f_ = divergence(cloud), source_ = q;
@@ -160,7 +160,7 @@ void fractionalStep::book(particleCloud& cloud, scalar dt, energyLedger& energy)
 
 // (6.10) and (6.12), over the rows that the ledger counts, without the step's first line
 void fractionalStep::bookMomentum(particleCloud& cloud, const List<vec4>& gp, scalar dt,
-                               energyLedger& energy)
+                                  energyLedger& energy)
 {
     List<vec4> lap;
     sticks_.resize(cloud.nAll());
@@ -185,7 +185,7 @@ void fractionalStep::bookMomentum(particleCloud& cloud, const List<vec4>& gp, sc
 
 // (6.11) and (6.6): what p does, row by row of continuity
 void fractionalStep::bookPressure(particleCloud& cloud, List<vec4>& gp, scalar dt,
-                               energyLedger& energy)
+                                  energyLedger& energy)
 {
     List<vec4> m(cloud.nAll());
     List<scalar> damps(cloud.n()), direct(cloud.n(), 0);
@@ -198,6 +198,7 @@ void fractionalStep::bookPressure(particleCloud& cloud, List<vec4>& gp, scalar d
     {
         const scalar S = dt / rho_ * (direct[i] - damps[i]);
         const scalar face = faces.empty() ? 0 : faces[i];
+        if (cloud.pHeld(i)) cloud.takeIn(i, div[i] + S);
         energy.bookRow(i, {cloud.Up[i][3], S, div[i] + S, source_[i], all[i], face, gp[i].xyz()},
                        level, dt);
     }
@@ -228,7 +229,7 @@ void fractionalStep::startPressure(particleCloud& cloud) const
 
 // p of M p = f, from the p that it finds.  The level of what is given is left out: a tolerance shall not depend on it
 void fractionalStep::solvePressure(particleCloud& cloud, const List<scalar>& f, scalar cellSize,
-                                scalar dt)
+                                   scalar dt)
 {
     const scalar level = givenLevel(cloud);
     List<scalar> b;
@@ -248,8 +249,8 @@ void fractionalStep::solvePressure(particleCloud& cloud, const List<scalar>& f, 
     for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] = p_[i] + level;
 }
 
-void fractionalStep::printContinuityErrors(particleCloud& cloud, const stencil&, const List<scalar>& q,
-                                        scalar dt)
+void fractionalStep::printContinuityErrors(particleCloud& cloud, const stencil&,
+                                           const List<scalar>& q, scalar dt)
 {
     List<scalar> left = divergence(cloud);
     for (label i = 0; i < cloud.n(); ++i) left[i] -= q.empty() ? 0 : q[i];

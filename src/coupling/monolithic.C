@@ -12,7 +12,7 @@
 //                               // enclosedFluid.H; of the solid's volume as it turns, volumeConstraint.H
 //         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
 //     }
-//     shifting { ... }     densityFeedback 1;
+//     shifting { ... }     densityFeedback 0;
 #include "closedBodies.H"
 #include "couplingScheme.H"
 #include "densityFeedback.H"

@@ -9,7 +9,7 @@
 //         reflection     0;            // to 1: less damping by the step, fractionalStep.H
 //         limits { CFL 0.4; force 0.25; viscous 0.125; }
 //     }
-//     shifting { ... }     densityFeedback 1;     solvers { p { ... } U { ... } }
+//     shifting { ... }     densityFeedback 0;     solvers { p { ... } U { ... } }
 //
 #include "closedBodies.H"
 #include "densityFeedback.H"

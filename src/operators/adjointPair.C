@@ -228,8 +228,8 @@ List<vec4> adjointPair::twiceMean(const Term& term) const
 }
 
 // Faces to fluid beyond an open face whose velocity is given: elements of a wall that moves so, with p linear to it.
-// Where faces meet whose velocities differ, the rim belongs to one or the other by chance: what they lack together of the
-// volume that is to enter is spread over their area
+// What they lack of the volume that is to enter is spread over their area; where faces meet whose velocities differ, together:
+// the rim belongs to one or the other by chance
 void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& drag)
 {
     const particleCloud& cloud = *cloud_;
@@ -257,9 +257,6 @@ void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& dr
                              std::min(one, other));
     List<scalar> lacks(group.size(), 0), area(group.size(), 0);
     for (size_t f = 1; f < group.size(); ++f) lacks[group[f]] -= cloud.entering[f];
-    const auto meets = [&](size_t f) {
-        return std::count(group.begin(), group.end(), group[f]) > 1;
-    };
     for (const label i : cut)
         for (std::int64_t k = list_->start[i]; k < list_->own[i]; ++k)
         {
@@ -268,7 +265,7 @@ void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& dr
             lacks[group[faceOf(j)]] -= a.dot(velocity(i, j)), area[group[faceOf(j)]] += a.norm();
         }
     const auto added = [&](size_t f) {  // [m/s]
-        const bool known = meets(f) && std::isfinite(lacks[group[f]]) && area[group[f]] > 0;
+        const bool known = std::isfinite(lacks[group[f]]) && area[group[f]] > 0;
         return known ? lacks[group[f]] / area[group[f]] : 0;
     };
     faceFlux_.assign(cloud.n(), 0);

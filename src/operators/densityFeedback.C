@@ -27,18 +27,8 @@ scalar extent(const particleCloud& cloud, IsOf&& isOf)
 }  // namespace
 
 densityFeedback::densityFeedback(const dictionary& solution, const particleCloud& cloud)
-    : cloud_(cloud), constant_(solution.getInRangeOrDefault("densityFeedback", 0, 1, 1))
+    : cloud_(cloud), constant_(solution.getInRangeOrDefault("densityFeedback", 0, 1, 0))
 {
-}
-
-// Are the areas of all faces known that drain zone z?
-bool densityFeedback::areasKnown(label z) const
-{
-    for (label i = cloud_.nSolid(); i < cloud_.n(); ++i)
-        if (const label strip = cloud_.stripOf(i);
-            strip > 0 && cloud_.zone[i] == z && !cloud_.stripArea[strip].allFinite())
-            return false;
-    return true;
 }
 
 void densityFeedback::addTo(List<scalar>& q, const adjointPair& pair, const List<char>& drained,
@@ -68,11 +58,6 @@ void densityFeedback::addTo(List<scalar>& q, const adjointPair& pair, const List
                 room += cells[k], ++n, speed += cloud_.Up[cloud_.nSolid() + k].xyz().norm();
         if (n == 0) continue;
         zoneState& state = states_[z];
-        if (!areasKnown(z))
-        {
-            state.source = 0;
-            continue;
-        }
         if (state.start == unknown) state.start = 1 - room / n;
         const scalar L = extent(cloud_, counts), all = 1 - room / n - state.start,
                      band = unsure * cloud_.dx / L;

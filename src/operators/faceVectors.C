@@ -362,7 +362,7 @@ private:
         weight_.assign(cloud_.n(), 1), inStrip_.assign(cloud_.n(), 0);
         strips_.resize(cloud_.stripArea.size());
         for (label i = within_.first; i < cloud_.n(); ++i)
-            if (const label k = cloud_.stripOf(i); k > 0 && cloud_.stripArea[k].allFinite())
+            if (const label k = cloud_.stripOf(i); k > 0)
                 strips_[k].members.push_back(i), inStrip_[i] = 1;
         const tensor free = cloud_.freeDirections();
         for (size_t k = 0; k < strips_.size(); ++k)

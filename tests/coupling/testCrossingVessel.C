@@ -57,7 +57,7 @@ caseOnDisk vessel(int beyond)
         "p { type sine; amplitude 20; frequency 2.5; scale 1; level 0; t0 0; } }"
         "right { type open; surface plane; point (24e-3 0 0); normal (1 0 0); p 0; }";
     files.properties = "rho 1000; mu 0.05;";
-    files.solution = "coupling monolithic;";
+    files.solution = "coupling monolithic; densityFeedback 1;";
     files.schemes = "kernel WendlandC2; hByDx 1.3;";
     files.control =
         "startTime 0; endTime 10; deltaT 4e-3; writeControl timeStep; writeInterval 1e6;";

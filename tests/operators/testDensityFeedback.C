@@ -142,7 +142,7 @@ scalar next(scalar q, scalar w, scalar change)
 // The first step of a run, of no length: it notes the state
 void begin(openPipe& p)
 {
-    densityFeedback feedback = with("", p.cloud);
+    densityFeedback feedback = with("densityFeedback 1;", p.cloud);
     List<scalar> q(p.cloud.n(), 0);
     feedback.addTo(q, p.pair, List<char>(p.cloud.n(), 1), 0);
     feedback.book(p.cloud, 0);
@@ -212,14 +212,14 @@ TEST_CASE("density feedback: none at the start, next to none of disorder that co
         CAPTURE(disorder);
         openPipe p(disorder);
         REQUIRE(p.nBetween() == 900);
-        densityFeedback feedback = with("", p.cloud);
+        densityFeedback feedback = with("densityFeedback 1;", p.cloud);
         CHECK(sourceOf(p, feedback) == List<scalar>(p.cloud.n(), 0));
         begin(p);
         for (const unsigned seed : {4, 5, 6})
         {
             openPipe other(0);
             other.displace(0.2, seed), other.cloud.history = p.cloud.history;
-            densityFeedback goesOn = with("", other.cloud);
+            densityFeedback goesOn = with("densityFeedback 1;", other.cloud);
             // one particle too many or too few is 0.0011
             CHECK(std::abs(sourceOf(other, goesOn)[9]) < 0.0025 * next(0, meanOf(other).w, 1));
         }
@@ -232,7 +232,7 @@ TEST_CASE("density feedback: fluid flows in where particles are missing, critica
     {
         emptied p(disorder);
         CHECK(p.lost() == relative(-10.0 / 890, 0.1));
-        densityFeedback feedback = with("", p.cloud);
+        densityFeedback feedback = with("densityFeedback 1;", p.cloud);
         scalar q = 0;
         for (int step = 0; step < 800; ++step)
         {
@@ -265,7 +265,7 @@ TEST_CASE("density feedback: its constant is the rate")
 TEST_CASE("density feedback: none if closed, with a source of its own, or at rest")
 {
     emptied p;
-    densityFeedback feedback = with("", p.cloud);
+    densityFeedback feedback = with("densityFeedback 1;", p.cloud);
     const label n = p.cloud.n();
     const List<scalar> nothing(n, 0), given(n, 0.3);
     CHECK(sourceOf(p, feedback)[9] < 0);
@@ -293,7 +293,7 @@ TEST_CASE("density feedback: none if closed, with a source of its own, or at res
 TEST_CASE("density feedback: fluid that is closed at first begins when it is drained")
 {
     openPipe p(0.1);
-    densityFeedback feedback = with("", p.cloud);
+    densityFeedback feedback = with("densityFeedback 1;", p.cloud);
     sourceOf(p, feedback, List<char>(p.cloud.n(), 0), List<scalar>(p.cloud.n(), 0));
     feedback.book(p.cloud, dt);
     p.removeTen();
@@ -319,7 +319,7 @@ TEST_CASE("density feedback: each zone has its own source")
     const scalar lost[2] = {part[0].e - start[0], part[1].e - start[1]};
     CHECK(std::abs(lost[0]) < 0.005);
     CHECK(lost[1] < -0.02);
-    densityFeedback feedback = with("", p.cloud);
+    densityFeedback feedback = with("densityFeedback 1;", p.cloud);
     scalar q[2] = {0, 0};
     for (int step = 0; step < 3; ++step)
     {
@@ -335,13 +335,13 @@ TEST_CASE("density feedback: each zone has its own source")
 TEST_CASE("density feedback: only accepted steps count, and a restart goes on from the history")
 {
     emptied p;
-    densityFeedback first = with("", p.cloud);
+    densityFeedback first = with("densityFeedback 1;", p.cloud);
     const List<scalar> once = sourceOf(p, first);
     CHECK(sourceOf(p, first) == once);  // the step is done again
     first.book(p.cloud, dt);
     const List<scalar> twice = sourceOf(p, first);
     CHECK(twice[9] < 1.3 * once[9]);  // it grows
-    densityFeedback again = with("", p.cloud);
+    densityFeedback again = with("densityFeedback 1;", p.cloud);
     CHECK(sourceOf(p, again) == twice);
     p.cloud.history.clear();
     CHECK(sourceOf(p, again)[9] == 0);  // another start
@@ -350,7 +350,7 @@ TEST_CASE("density feedback: only accepted steps count, and a restart goes on fr
 TEST_CASE("density feedback books what it has put in")
 {
     emptied p;
-    densityFeedback feedback = with("", p.cloud);
+    densityFeedback feedback = with("densityFeedback 1;", p.cloud);
     scalar sum = 0;
     for (const scalar step : {0.25, 0.5})
     {
