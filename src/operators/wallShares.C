@@ -2,6 +2,9 @@
 #include "wallShares.H"
 #include "pointGrid.H"
 
+#include <algorithm>
+#include <cmath>
+
 namespace ispf
 {
 
@@ -23,6 +26,16 @@ List<label> besideWalls(const particleCloud& cloud, const neighbourList& list)
             sees[cloud.ghostSource(g)])
             found.push_back(g);
     return found;
+}
+
+// Share of an element that lies before fluid, where a solid ends at the wall: its surface is halfway between particles of both,
+// (3.16)
+scalar beforeFluid(const particleCloud& cloud, const surfaceElement& e, scalar toFluid,
+                   scalar toSolid)
+{
+    const scalar before = (toSolid * toSolid - toFluid * toFluid) / (2 * cloud.dx);
+    const scalar across = cloud.nDims == 3 ? std::sqrt(e.S.norm()) : e.S.norm();
+    return std::clamp(0.5 + before / across, 0.0, 1.0);
 }
 
 }  // namespace
@@ -47,19 +60,20 @@ void wallShares::build(const particleCloud& cloud, const neighbourList& list,
             for (label s = begin; s < end; ++s)
             {
                 const surfaceElement& e = cloud.surface[s];
-                scalar sum = 0, nearest = kernel.support();
-                bool solid = false;
+                scalar sum = 0, toFluid = kernel.support(), toSolid = 2 * kernel.support();
                 grid.within(e.x, kernel.support(), [&](label k, scalar r) {
                     const label j = beside[k];
                     const bool isSolid = !withSolid && cloud.phase[j] == phaseType::solid;
                     if ((cloud.x[j].xyz() - e.x).dot(e.S) >= 0) return;
-                    if (r < nearest) nearest = r, solid = isSolid;
+                    scalar& nearest = isSolid ? toSolid : toFluid;
+                    nearest = std::min(nearest, r);
                     if (isSolid) return;
                     const scalar W = kernel.W(r);
                     if (W > 0) found[s].push_back({s, j, W}), sum += W;
                 });
-                if (solid) found[s].clear();
-                for (share& part : found[s]) part.weight /= sum;
+                const scalar free = beforeFluid(cloud, e, toFluid, toSolid);
+                if (free == 0) found[s].clear();
+                for (share& part : found[s]) part.weight *= free / sum;
             }
         },
         64);
