@@ -152,7 +152,7 @@ echo 'dx 0.05; nDims 2; zones { f { phase fluid; shape box; min (0 0 0); max (0.
     patches { left { box ((-1 -1 -1) (0.001 1 1)); } right { box ((0.799 -1 -1) (2 1 1)); } }' > system/particleDict
 echo "coupling projection;" > system/sphSolution; : > system/sphSchemes
 mean() { tr -d '()' < "$1" | awk -v c="$2" '$1 > 3 { sum += $c; ++n } END { print sum/n }'; }
-surplus() { # patch boundary...: friction and flow with one dt over the other, of 0.2 and of Poiseuille's flow
+surplus() { # patch boundary...: friction and flow with one dt over the other, of 0.2 and of Poiseuille's flow; is a flow 0.5 % off?
     local dt
     echo "${*:2} walls { type wall; }" > constant/boundary
     for dt in 0.01 0.0025; do
@@ -161,11 +161,11 @@ surplus() { # patch boundary...: friction and flow with one dt over the other, o
             functions { f { type forces; patches (walls); } q { type patchFlux; patch $1; } }" > $control
         place; solved
         echo "$dt $(mean postProcessing/f/0/force.dat 8) $(mean postProcessing/q/0/patchFlux.dat 2)"
-    done | awk '{ f = $2/0.2 - f; q = $3/0.0520833 - q } END { print -f, -q }'
+    done | awk '{ f = $2/0.2 - f; q = $3/0.0520833 - q; if (($3/0.0520833 - 1)^2 > 0.005^2) off = 1 } END { print -f, -q, off + 0 }'
 }
 surplus right 'left { type open; p 0.4; } right { type open; p 0; }' > open
 awk '{ print "    projection between open faces, four times the step: friction", $1, "flow", $2, "more"
-       exit !($1^2 < 0.01^2 && $2^2 < 0.005^2) }' open || fail "a projection that slips: $(cat open)"
+       exit !($1^2 < 0.01^2 && $2^2 < 0.01^2 && !$3) }' open || fail "a projection that slips: $(cat open)"
 sed -i 's/patches {.*//' system/particleDict
 surplus ends 'ends { type cyclic; point (0 0 0); separation (0.8 0 0); pressureDrop 0.4; }' > drop
 awk '{ exit !($1^2 < 1e-6 && $2^2 < 1e-6) }' drop || fail "a projection with a pressureDrop slips: $(cat drop)"
