@@ -148,6 +148,30 @@ grep -q "cell Reynolds" log && fail "warns of a cell Reynolds number of 48"
 sed -i "s/deltaT 2e-3/deltaT 1e4; adjustTimeStep yes/" $control
 refused "the CFL limit is 0.0027[0-9]* s, less than 1e-06 of deltaT"
 
+# ---- an opening in the side of a ball: walls that go on past its rim lean over what is beyond it --------
+mkdir -p "$scratch/ball"/{constant,system}; cd "$scratch/ball" || exit 1
+opening() { # its width over dx
+    rm -rf 0 0.* constant/*.hdf
+    echo "SetFactory(\"OpenCASCADE\"); Sphere(1) = {0, 0, 0, 10};
+        Box(2) = {-20, -20, Sqrt(100 - $1*$1/4), 40, 40, 20}; BooleanDifference { Volume{1}; Delete; } { Volume{2}; Delete; }
+        Box(3) = {-20, -20, -40, 40, 40, 40 - Sqrt(100 - $1*$1/4)};
+        BooleanDifference { Volume{1}; Delete; } { Volume{3}; Delete; }" > constant/ball.geo
+    echo "dx 1e-3; zones { water { phase fluid; file \"constant/ball.geo\"; unit mm; } }
+        patches { in { box ((-1 -1 -1) (1 1 $(awk -v w="$1" 'BEGIN { print -1e-3*(sqrt(100 - w*w/4) - 0.1) }'))); }
+                  out { box ((-1 -1 $(awk -v w="$1" 'BEGIN { print 1e-3*(sqrt(100 - w*w/4) - 0.1) }')) (1 1 1)); } }" > system/particleDict
+    place
+}
+echo "walls { type wall; } in { type open; velocity 0.01; } out { type open; p 0; }" > constant/boundary
+echo "rho 1000; mu 0.01;" > constant/physicalProperties
+echo "coupling projection;" > $solution; : > system/sphSchemes
+echo "startTime 0; endTime 0.3; deltaT 1e-2; writeControl timeStep; writeInterval 30;" > $control
+opening 4
+refused "Open patch in: walls that go on past its rim leave [0-9.]+ % of the width.* take a dx with which it is [0-9.]+ dx wide"
+grep -q "^Time = " log && fail "an opening in a ball: a step was taken"
+opening "$(awk '{ for (i = 1; i < NF; ++i) if ($i $(i + 1) $(i + 2) == "itis" $(i + 2) && $(i + 3) == "dx" && !n++) print $(i + 2) }' log)"
+solved
+grep "^patch flux" log | tail -n 1 | awk '{ exit !($NF^2 < 1e-10^2) }' || fail "an opening in a ball: $(grep '^patch flux' log | tail -n 1)"
+
 # ---- densities, words, kernels -------------------------------------------------------------------------
 newCase membrane words; place
 setEntry $control endTime 0.01
