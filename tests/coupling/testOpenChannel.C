@@ -94,7 +94,7 @@ void write(const scenario& s, caseOnDisk& files)
         "right { type open; p 0; }";
     files.properties = "rho 1000; mu " + str(s.mu) + ";";
     files.schemes = "kernel WendlandC2; hByDx 1.3;";
-    files.solution = "coupling " + s.coupling + ";";
+    files.solution = "coupling " + s.coupling + "; densityFeedback 1;";
     files.control = "startTime 0; endTime 100; deltaT 1; writeControl timeStep; writeInterval 1e6;";
     files.fill(0, 0, dx);
     const auto points = [&](scalar from, scalar to) {
