@@ -73,7 +73,7 @@ void wallShares::build(const particleCloud& cloud, const neighbourList& list,
                 });
                 const scalar free = beforeFluid(cloud, e, toFluid, toSolid);
                 if (free == 0) found[s].clear();
-                for (share& part : found[s]) part.weight *= free / sum;
+                for (share& part : found[s]) part.weight = free * part.weight / sum;
             }
         },
         64);
