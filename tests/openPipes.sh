@@ -12,9 +12,9 @@ free="coupling monolithic;"
 echo "$held" > system/sphSolution
 : > system/sphSchemes
 
-# oscillate name depth period amplitude [most [periods]]: depth is that beyond the faces over dx, for awk; after five periods
-# the volume may differ by `most` percent, as the mean of the last; after more also the mean of the five before by half of it
-# from that
+# oscillate name depth period amplitude [most [periods]]: depth is that beyond the faces over dx, for awk.  After five periods
+# the mean of the last may differ from the start by `most` percent.  After more, the mean of the last five may, and by a quarter
+# of `most` from that of the five before
 oscillate() {
     local name=$1 depth=$2 period=$3 amplitude=$4 most=${5:-0.5} periods=${6:-5} t
     rm -rf 0 0.* [1-9]* postProcessing
@@ -55,10 +55,8 @@ for radius in 3 4; do
     oscillate "flat, $((2 * radius)) dx bore" "z - 18" 0.5 5 1
 done
 echo "$free" > system/sphSolution
-oscillate "flat, 8 dx bore, without densityFeedback" "z - 18" 0.5 5 2.5 20
-echo "$held" > system/sphSolution
+oscillate "flat, 8 dx bore, without densityFeedback" "z - 18" 0.5 5 1.5 20
 echo 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 18, 6};' > constant/pipe.geo
-echo "$free" > system/sphSolution
 oscillate "flat, without densityFeedback" "z - 18" 0.5 5 1
 echo "$held" > system/sphSolution
 lid "-7e-3 -7e-3 17.9e-3" "7e-3 7e-3 18.1e-3" "stripLayers 4;"

@@ -209,7 +209,7 @@ echo 'dx 6.25e-3; nDims 2; zones { water { phase fluid; shape box; min (0 0 0); 
 patches { in { box ((-1 -1 -1) (0.001 1 1)); } out { box ((0.299 -1 -1) (1 1 1)); } }' > system/particleDict
 echo 'in { type open; flowRate 1e-3; profile parabolic; } out { type open; p 0; backflow 0; } walls { type wall; }' > constant/boundary
 echo 'rho 1000; mu 0.2;' > constant/physicalProperties
-echo 'coupling projection; densityFeedback 0;' > system/sphSolution; : > system/sphSchemes
+echo 'coupling projection;' > system/sphSolution; : > system/sphSchemes
 echo 'startTime 0; endTime 0.15; deltaT 2.5e-3; writeControl timeStep; writeInterval 20; functions {
     e { type energy; } in { type patchFlux; patch in; } out { type patchFlux; patch out; } }' > $control
 place; solved

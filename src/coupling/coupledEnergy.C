@@ -70,7 +70,7 @@ void coupledSystem::bookPressure(const List<vec4>& before, scalar theta, const L
     {
         const scalar face = faces.empty() ? 0 : faces[i];
         const vector g = gp_[i].xyz() - (drop.empty() ? vector(vector::Zero()) : drop[i].xyz());
-        if (cloud.pHeld(i)) cloud.takeIn(i, rows[i] + all[i]);
+        cloud.takeIn(i, rows[i] + all[i]);
         energy.bookRow(i, {phi_[i][3], rows[i] - div[i], rows[i] + all[i], q[i], all[i], face, g},
                        level, dt_);
     }

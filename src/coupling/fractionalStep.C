@@ -198,7 +198,7 @@ void fractionalStep::bookPressure(particleCloud& cloud, List<vec4>& gp, scalar d
     {
         const scalar S = dt / rho_ * (direct[i] - damps[i]);
         const scalar face = faces.empty() ? 0 : faces[i];
-        if (cloud.pHeld(i)) cloud.takeIn(i, div[i] + S);
+        cloud.takeIn(i, div[i] + S);
         energy.bookRow(i, {cloud.Up[i][3], S, div[i] + S, source_[i], all[i], face, gp[i].xyz()},
                        level, dt);
     }

@@ -4,8 +4,8 @@
 //     outflow { type patchFlux; patch outside; }      // a patch of constant/boundary
 //     nozzle  { type patchFlux; surface nozzleExit; zones (chamber); }   // any surface in the fluid
 //
-// patch: what crosses it by the boundary's own books, the sweep of a moving wall and what does not enter the strip beyond an open
-//     face (doc/theory 4.2; with DLN in the mean of the step), so that all patches together pass nothing but sources:
+// patch: what crosses it by the boundary's own books: the sweep of a moving wall, and the flux that the divergence balances on an
+//     open face (doc/theory (4.4); with DLN the mean over the step).  The fluxes of all patches sum to the sources.
 //     `flux` in the last step and `volume` since the case began, out is positive; and the particles that the modelled
 //     part of an open face has `created` and `deleted`.  Of a cyclic patch: the fluid that passes, positive along the
 //     separation.  Walls that stand and symmetry planes pass nothing: zero.

@@ -228,8 +228,8 @@ List<vec4> adjointPair::twiceMean(const Term& term) const
 }
 
 // Faces to fluid beyond an open face whose velocity is given: elements of a wall that moves so, with p linear to it.
-// What they lack of the volume that is to enter is spread over their area; where faces meet whose velocities differ, together:
-// the rim belongs to one or the other by chance
+// Their flux misses some of the volume that is to enter, and the rest is spread over their area.  Faces that meet share one
+// rest: a cell at their rim belongs to one or the other by chance
 void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& drag)
 {
     const particleCloud& cloud = *cloud_;
