@@ -103,29 +103,21 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
     checkOuterEnd(feet, taken, cloud.nDims);
 }
 
-// What enters does so at the outer end of the strip.  A wall that goes on past the rim as it came, as that of a vessel in whose
-// curved side the opening lies, leans over the strip by as many dx however wide the opening
+// New particles are put at the strip's outer end.  A wall is continued past the rim, and where an opening lies flush in a curved
+// wall it covers that end as a whole: nothing could enter
 void openFace::checkOuterEnd(const List<surfaceFoot>& feet, const pointGrid& places,
                              int nDims) const
 {
-    constexpr scalar least = 0.5;  // of the width that the walls must leave
-    const label open = label(std::count_if(feet.begin(), feet.end(), [&](const surfaceFoot& f) {
-        return places.any(f.foot + depth_ * f.normal, 0.75 * dx_);
-    }));
-    const scalar left = std::pow(scalar(open) / scalar(feet.size()), 1.0 / (nDims - 1));
-    if (left >= least) return;
-    scalar area = 0;  // [dx]
-    for (const auto& [zone, A] : areas_) area += A.norm() / std::pow(dx_, nDims - 1);
-    const scalar wide = nDims == 3 ? std::sqrt(4 / M_PI * area) : area;
-    throw fatalError("Open patch " + name_ + ": walls that go on past its rim leave " +
-                         str(100 * left, 2) + " % of the width of the strip's outer end, " +
-                         str(depth_ / dx_) +
-                         " dx beyond the face, so that next to nothing could enter. The face is " +
-                         str(wide, 3) + " dx wide; take a dx with which it is " +
-                         str(wide * (1 - left) / (1 - least), 3) +
-                         " dx wide or more, or prolong the vessel before the opening by " +
-                         str(depth_ / dx_ + 1) + " dx",
-                     where_);
+    if (std::any_of(feet.begin(), feet.end(), [&](const surfaceFoot& f) {
+            return places.any(f.foot + depth_ * f.normal, 0.75 * dx_);
+        }))
+        return;
+    throw fatalError(
+        "Open patch " + name_ + ": its walls, continued past its rim, cover all of the strip " +
+            str(depth_ / dx_) + " dx beyond it, so that nothing could enter" + widthInWords(nDims) +
+            ". Take half the dx, or prolong the vessel before the opening by " +
+            str(depth_ / dx_ + 1) + " dx",
+        where_);
 }
 
 // A solid that holds the fluid before the face has to hold that in the strip, too

@@ -98,16 +98,22 @@ void openFace::setStrip(particleCloud& cloud, const movingWalls& walls) const
                 cloud.strip[i] = firstStrip_ + label(std::distance(areas_.begin(), found));
 }
 
+word openFace::widthInWords(int nDims) const
+{
+    if (mesh_.empty()) return "";
+    const scalar wide = nDims == 3 ? std::sqrt(4 / M_PI * mesh_.area()) : mesh_.area();
+    return "; the face is " + str(wide / dx_, 3) + " dx wide";
+}
+
 // Without fluid beyond the face nothing would enter or leave, and no one would be told
 void openFace::checkFilled(const particleCloud& cloud) const
 {
     if (inflow_->mean() == 0) return;
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
         if (const surfaceFoot& f = known_[i].foot; f.found && f.depth > 0) return;
-    const scalar wide = mesh_.empty() ? 0 : std::pow(mesh_.area(), 1.0 / (cloud.nDims - 1)) / dx_;
     throw fatalError("Open patch " + name_ + ": no fluid is left in the strip of " +
                          str(depth_ / dx_) + " dx beyond it, so that nothing can pass" +
-                         (wide > 0 ? "; the face is " + str(wide, 3) + " dx wide" : word()) +
+                         widthInWords(cloud.nDims) +
                          ". Does a wall reach across the strip? Prolong the vessel before the "
                          "opening, or take a smaller dx",
                      where_);

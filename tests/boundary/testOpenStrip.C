@@ -18,7 +18,8 @@ struct column
     particleCloud cloud;
     std::unique_ptr<boundary> b;
 
-    explicit column(scalar bottom)
+    explicit column(scalar bottom,
+                    const word& xLow = "type cyclic; point (0 0 0); separation (12 0 0);")
     {
         const auto within = [](const vector& x) {
             return x[0] > 0 && x[0] < 12 && x[1] > 0 && x[1] < 12;
@@ -33,9 +34,9 @@ struct column
         f.surface("top", sheet({0, 0, top}, {12, 0, 0}, {0, 12, 0}, 4));
         f.points("openSites.hdf", {{"top", beyond}});
         cloud = fluid(all, 1);
-        const word sides =
-            "xLow { type cyclic; point (0 0 0); separation (12 0 0); }"
-            "yLow { type cyclic; point (0 0 0); separation (0 12 0); }";
+        const word sides = "xLow { " + xLow +
+                           " }"
+                           "yLow { type cyclic; point (0 0 0); separation (0 12 0); }";
         b = std::make_unique<boundary>(
             f.path, dictionary::fromString(sides + "top { type open; p " + str(given) + "; }"),
             cloud, 2.6);
@@ -139,4 +140,20 @@ TEST_CASE("near an open face: 0.6 dx before it; beyond its strip there is nothin
     }
     CHECK(nearWrong == 0);
     CHECK(beyondWrong == 0);
+}
+
+TEST_CASE("the area of an open face is what a wall that moves along it has not passed over")
+{
+    column c(0,
+             "type wall; surface plane; point (0 0 0); normal (-1 0 0); "
+             "motion { displacement table ((0 (0 0 0)) (0.1 (3 0 0)) (0.2 (4.5 0 0))); }");
+    for (const scalar passed : {0.0, 3.0, 4.5})
+    {
+        CAPTURE(passed);
+        c.b->setFlags(c.cloud, rho, {});
+        REQUIRE(c.cloud.stripArea.size() == 2);
+        CHECK(c.cloud.stripArea[1][2] == relative(12 * (12 - passed), 0.01));
+        const scalar now = passed == 0 ? 0.1 : 0.2;
+        c.b->exchange(c.cloud, now), c.b->setStep(now, now + 0.1);
+    }
 }
