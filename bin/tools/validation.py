@@ -10,6 +10,7 @@ case's dictionaries, the tables of function objects, and a report of quantities 
     sys.exit(report.write())
 
 RunFunctions puts this folder on PYTHONPATH and the programs on PATH."""
+import cmath
 import csv
 import math
 import os
@@ -128,6 +129,25 @@ def history(name, file, whole=True):
     if whole and len(rows) > 1 and rows[-1][0] < end - 1.5 * between:
         sys.exit(f"postProcessing/{name}/*/{file} ends at {rows[-1][0]:g} s of {end:g} s")
     return rows
+
+
+def strongest(rows, column, about):
+    """Frequency and amplitude of the strongest oscillation of a column of rows (time, ...), sought between half and twice
+    `about`, ever closer, by Fourier integrals over the rows in a Hann window; the steps in time may differ"""
+    times, values = [r[0] for r in rows], [r[column] for r in rows]
+    begin, length = times[0], times[-1] - times[0]
+    steps = [(b - a) / 2 for a, b in zip([begin] + times[:-1], times[1:] + [times[-1]])]
+    mean = sum(v * s for v, s in zip(values, steps)) / length
+    windowed = [(v - mean) * s * math.sin(math.pi * (t - begin) / length) ** 2 for t, v, s in zip(times, values, steps)]
+
+    def strength(f):
+        return 4 / length * abs(sum(w * cmath.exp(-2j * math.pi * f * t) for t, w in zip(times, windowed)))
+
+    low, high = 0.5 * about, 2 * about
+    while (high - low) > 1e-4 * about:
+        best = max((low + (high - low) * k / 40 for k in range(41)), key=strength)
+        low, high = best - (high - low) / 20, best + (high - low) / 20
+    return best, strength(best)
 
 
 def reference(path, textual=()):

@@ -25,12 +25,24 @@ bool interpolates(const List<pointSampler::contribution>& weights, const List<ve
 
 }  // namespace
 
-fieldSampler::fieldSampler(const dictionary& dict, const fsiCase& c)
+fieldSampler::fieldSampler(const dictionary& dict, const fsiCase& c, frame f)
     : case_(c),
-      chosen_(c.cloud, dict, "fluid"),
+      frame_(f),
+      chosen_(c.cloud, dict, f == frame::rest ? "solid" : "fluid"),
       radius_(c.cloud.dx * dict.getInRangeOrDefault("radius", 1.2, 10, 2)),
       images_(c.walls->images())
 {
+    if (f == frame::present) return;
+    for (label i = c.cloud.nSolid(); i < c.cloud.n(); ++i)
+        if (chosen_(c.cloud, i))
+            dict.fail(dict.found("zones") ? "zones" : "phase",
+                      "Zone '" + c.cloud.zones[c.cloud.zone[i]].name +
+                          "' is fluid, which knows no place at rest: name solids alone.");
+}
+
+const List<vec4>& fieldSampler::places() const
+{
+    return frame_ == frame::rest ? case_.cloud.vectors.at("x0") : case_.cloud.x;
 }
 
 // Chosen particles and images in the box
@@ -43,7 +55,7 @@ void fieldSampler::gather(const vector& low, const vector& high, List<vector>& p
     for (label i = 0; i < case_.cloud.n(); ++i)
     {
         if (!chosen_(case_.cloud, i)) continue;
-        const vector x = case_.cloud.x[i].xyz();
+        const vector x = places()[i].xyz();
         if (inside(x)) positions.push_back(x), sources_.push_back({i, nullptr});
         for (const structureImage& map : images_)
             if (const vector y = map(x); inside(y))

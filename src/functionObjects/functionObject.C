@@ -11,14 +11,20 @@ std::unique_ptr<functionObject> functionObject::New(const word& name, const dict
 {
     using maker =
         std::unique_ptr<functionObject> (*)(const word&, const dictionary&, const fsiCase&);
-    static const std::map<word, maker> types = {
-        {"cavityVolume", newCavityVolume}, {"energy", newEnergy},
-        {"errorNorm", newErrorNorm},       {"forces", newForces},
-        {"lineProfile", newLineProfile},   {"minMax", newMinMax},
-        {"momentum", newMomentum},         {"patchFlux", newPatchFlux},
-        {"planeMap", newPlaneMap},         {"probes", newProbes},
-        {"surfaceLeaks", newSurfaceLeaks}, {"surfaceSample", newSurfaceSample},
-        {"zoneDiameter", newZoneDiameter}};
+    static const std::map<word, maker> types = {{"cavityVolume", newCavityVolume},
+                                                {"energy", newEnergy},
+                                                {"errorNorm", newErrorNorm},
+                                                {"forces", newForces},
+                                                {"lineProfile", newLineProfile},
+                                                {"materialProbes", newMaterialProbes},
+                                                {"minMax", newMinMax},
+                                                {"momentum", newMomentum},
+                                                {"patchFlux", newPatchFlux},
+                                                {"planeMap", newPlaneMap},
+                                                {"probes", newProbes},
+                                                {"surfaceLeaks", newSurfaceLeaks},
+                                                {"surfaceSample", newSurfaceSample},
+                                                {"zoneDiameter", newZoneDiameter}};
     List<word> names;
     for (const auto& t : types) names.push_back(t.first);
     return types.at(dict.choose("type", names))(name, dict, c);

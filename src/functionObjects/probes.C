@@ -3,8 +3,12 @@
 //
 //     chamber { type probes; fields (p U); probeLocations ((0 0 10e-3)); zones (chamber); }
 //
-// fields: U p (default) or what a model has registered.  zones, radius: see fieldSampler.H.  A probe
-// outside them reads NaN.
+// fields: U p (default), or what a model has registered.  zones, radius: see fieldSampler.H.  A probe
+// outside them reads NaN.  Points of solids that move with them are given where they are at rest:
+//
+//     tip { type materialProbes; probeLocations ((0.6 0.2 0)); zones (flag); }
+//
+// fields: displacement (default), U, p, or what a model has registered.
 #include "functionObject.H"
 
 #include "dataFile.H"
@@ -29,11 +33,11 @@ word aligned(const word& text, size_t w)
 class probes : public functionObject
 {
 public:
-    probes(const word& name, const dictionary& dict, const fsiCase& c)
+    probes(const word& name, const dictionary& dict, const fsiCase& c, fieldSampler::frame frame)
         : functionObject(name, dict, c),
           points_(dict.get<List<vector>>("probeLocations", dims::length)),
-          fields_(fieldsOf(c.cloud, dict)),
-          sampler_(dict, c),
+          fields_(fieldsOf(c.cloud, dict, defaults(frame))),
+          sampler_(dict, c, frame),
           files_(fields_.size())
     {
         if (points_.empty()) dict.fail("probeLocations", "At least one point (x y z) is wanted.");
@@ -56,6 +60,12 @@ public:
     }
 
 private:
+    static List<word> defaults(fieldSampler::frame frame)
+    {
+        if (frame == fieldSampler::frame::rest) return {"displacement"};
+        return {"U", "p"};
+    }
+
     void tellUnreached() const
     {
         for (size_t k = 0; k < points_.size(); ++k)
@@ -103,7 +113,13 @@ private:
 std::unique_ptr<functionObject> newProbes(const word& name, const dictionary& dict,
                                           const fsiCase& c)
 {
-    return std::make_unique<probes>(name, dict, c);
+    return std::make_unique<probes>(name, dict, c, fieldSampler::frame::present);
+}
+
+std::unique_ptr<functionObject> newMaterialProbes(const word& name, const dictionary& dict,
+                                                  const fsiCase& c)
+{
+    return std::make_unique<probes>(name, dict, c, fieldSampler::frame::rest);
 }
 
 }  // namespace ispf

@@ -115,6 +115,36 @@ TEST_CASE("a probe on symmetry planes sees the images: no flow through the plane
     CHECK(u[0][3] == relative(1));
 }
 
+TEST_CASE("materialProbes go with the solid: exact on a linear displacement, refused for fluid")
+{
+    testCase t;
+    t.addBlock("flag", {0, 0, 0}, {8, 8, 8}, "solid");
+    t.addBlock("chamber", {8e-3, 0, 0}, {8, 8, 8});
+    t.functions =
+        "tip { type materialProbes; probeLocations ((7.9e-3 3.3e-3 2.9e-3) (9.5e-3 4e-3 4e-3)); }"
+        "speed { type materialProbes; fields (U); probeLocations ((1e-3 4e-3 4e-3)); }";
+    auto r = t.start();
+    particleCloud& cloud = r.c->cloud;
+    const auto moved = [](const vector& x) {
+        return vector(-0.02 + 0.3 * x[1], 0.05 - 0.2 * x[0], 0.1 * x[2]);
+    };
+    for (label i = 0; i < cloud.nSolid(); ++i)
+    {
+        const vector x0 = cloud.vectors.at("x0")[i].xyz();
+        cloud.x[i] = vec4::from(x0 + moved(x0), 0);
+        cloud.Up[i] = vec4::from(velocityAt(x0), 0);
+    }
+    functionObjectList f(*r.c);
+    f.start();
+    const vector tip = moved({7.9e-3, 3.3e-3, 2.9e-3}), U = velocityAt({1e-3, 4e-3, 4e-3});
+    const auto row = t.rows("tip/0/displacement")[0], speed = t.rows("speed/0/U")[0];
+    for (int d = 0; d < 3; ++d) CHECK(row[1 + d] == relative(tip[d], 1e-6));
+    CHECK(std::isnan(row[4]));
+    for (int d = 0; d < 3; ++d) CHECK(speed[1 + d] == relative(U[d], 1e-6));
+    t.functions = "a { type materialProbes; probeLocations ((0 0 0)); zones (flag chamber); }";
+    CHECK_ERROR(functionObjectList(*t.start().c), "Zone 'chamber' is fluid", 3);
+}
+
 TEST_CASE("zones: nothing comes from the other side")
 {
     testCase t;
