@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "particleShifting.H"
 
+#include "approachLimit.H"
+
 #include <algorithm>
 #include <cmath>
 
@@ -46,6 +48,7 @@ particleShifting::particleShifting(const dictionary& dict, const word& frame)
     constant_ = dict.getInRangeOrDefault("constant", 0, 1, 0.2);
     closing_ = dict.getInRangeOrDefault("closing", 0, 2, 0.7);
     maxShift_ = dict.getInRangeOrDefault("maxShift", 0, 0.2, 0.05);
+    closest_ = dict.getInRangeOrDefault("closest", 0, 0.9, 0.4);
     againstMean_ = dict.chooseOrDefault("frame", {"still", "mean"}, frame) == "mean";
 }
 
@@ -74,7 +77,8 @@ word particleShifting::describe() const
 {
     if (!on()) return "none";
     return "Xu, constant " + str(constant_) + ", closing " + str(closing_) + ", at most " +
-           str(maxShift_) + " dx" + (againstMean_ ? ", by the speed against the mean" : "");
+           str(maxShift_) + " dx, pairs kept " + str(closest_) + " dx apart" +
+           (againstMean_ ? ", by the speed against the mean" : "");
 }
 
 namespace
@@ -181,6 +185,7 @@ scalar particleShifting::shift(particleCloud& cloud, const neighbourList& list,
         cloud.x[first + k].s += vec4::from(shifts[k]).s;
         cloud.Up[first + k].s += t * vec4::from(v[k]).s;
     }
+    if (closest_ > 0) limitApproach(cloud, list, closest_ * dx, dt);
     return a * t + b * t * t;
 }
 

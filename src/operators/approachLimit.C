@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "approachLimit.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+// Exchanges among three particles that meet settle in a few sweeps; what is left is met in the next step
+constexpr int mostSweeps = 5;
+
+vector velocityOf(const particleCloud& cloud, label j)
+{
+    if (j < cloud.n()) return cloud.Up[j].xyz();
+    const vec4& u = cloud.Up[cloud.ghostSource(j)];
+    return (cloud.ruleOf(j).M * Eigen::Vector4d(u[0], u[1], u[2], u[3])).head<3>() +
+           cloud.ghostOffset(j).xyz();
+}
+
+// What i has to gain against j along n for (8.35), positive if the pair comes too near, and n
+struct approach
+{
+    scalar lacks;
+    vector n;
+};
+
+approach approachOf(const particleCloud& cloud, label i, label j, scalar closest, scalar dt)
+{
+    const vector d = cloud.x[i].xyz() - cloud.x[j].xyz();
+    const scalar r = d.norm(), room = std::max(r - closest, scalar(0));
+    const vector n = d / r;
+    return {-room / dt - n.dot(cloud.Up[i].xyz() - velocityOf(cloud, j)), n};
+}
+
+}  // namespace
+
+label limitApproach(particleCloud& cloud, const neighbourList& list, scalar closest, scalar dt)
+{
+    const label first = cloud.nSolid(), nFluid = cloud.n() - first;
+    List<char> meets(nFluid, 0);
+    label exchanges = 0;
+    for (int sweep = 0; sweep < mostSweeps; ++sweep)
+    {
+        parallelFor(nFluid, [&](label begin, label end) {
+            for (label k = begin; k < end; ++k)
+            {
+                const label i = first + k;
+                meets[k] = 0;
+                for (std::int64_t m = list.start[i]; m < list.wall[i] && !meets[k]; ++m)
+                    meets[k] = approachOf(cloud, i, list.index[m], closest, dt).lacks > 0;
+            }
+        });
+        if (std::find(meets.begin(), meets.end(), 1) == meets.end()) break;
+        for (label k = 0; k < nFluid; ++k)
+        {
+            const label i = first + k;
+            if (!meets[k]) continue;
+            for (std::int64_t m = list.start[i]; m < list.wall[i]; ++m)
+            {
+                const label j = list.index[m], owner = cloud.ownerOf(j);
+                const auto [lacks, n] = approachOf(cloud, i, j, closest, dt);
+                const int free = !cloud.uFixed[i] + !cloud.uFixed[owner];
+                if (!(lacks > 0) || free == 0) continue;
+                const vector change = lacks / free * n;
+                if (!cloud.uFixed[i]) cloud.Up[i].s += vec4::from(change).s;
+                // an image of i itself goes with it
+                if (owner != i && !cloud.uFixed[owner])
+                    cloud.Up[owner].s -=
+                        vec4::from(j < cloud.n() ? change
+                                                 : vector(cloud.ruleOf(j).R.transpose() * change))
+                            .s;
+                ++exchanges;
+            }
+        }
+    }
+    return exchanges;
+}
+
+}  // namespace ispf
