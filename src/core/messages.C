@@ -2,12 +2,14 @@
 #include "messages.H"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <new>
@@ -20,6 +22,13 @@ namespace
 {
 
 int outputError = 0;  // errno of the first write to stdout that failed
+
+// Lists of a step come again in the next: their memory stays with the program, which else hands it back and has it cleared
+// for it each time
+void keepMemory()
+{
+    mallopt(M_MMAP_MAX, 0), mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+}
 
 // A log that cannot be written stops no run: runMain tells at its end
 void note(bool written)
@@ -178,6 +187,7 @@ void warning(const word& text, int most)
 int runMain(const std::function<int()>& body)
 {
     occupyStandardStreams();
+    keepMemory();
     const int status = statusOf(body);
     note(std::fflush(stdout) == 0);
     if (outputError == 0) return status;

@@ -58,15 +58,14 @@ void fractionalStep::setup(particleCloud& cloud, const stencil& s, const smoothi
 }
 
 // dt/rho G p; nothing where the velocity is prescribed
-List<vec4> fractionalStep::corrected(const particleCloud& cloud, scalar dt) const
+List<vec4> fractionalStep::corrected(const particleCloud& cloud, scalar dt)
 {
     List<scalar> p(cloud.n());
     for (label i = 0; i < cloud.n(); ++i) p[i] = cloud.Up[i][3];
-    List<vec4> change;
-    operator_.gradient(p, change);
+    operator_.gradient(p, gradient_);
+    List<vec4> change(gradient_.begin(), gradient_.begin() + cloud.n());
     const simd4 part = {dt / rho_, dt / rho_, dt / rho_, 0};
     for (label i = 0; i < cloud.n(); ++i) change[i].s *= cloud.uFixed[i] ? simd4{} : part;
-    change.resize(cloud.n());
     return change;
 }
 
@@ -148,19 +147,15 @@ void fractionalStep::settle(particleCloud& cloud, scalar cellSize, scalar dt)
     solvePressure(cloud, f_, cellSize, dt);
 }
 
+// With the gradient of the correction
 void fractionalStep::book(particleCloud& cloud, scalar dt, energyLedger& energy)
 {
-    List<scalar> p(cloud.n());
-    for (label i = 0; i < cloud.n(); ++i) p[i] = cloud.Up[i][3];
-    List<vec4> gp;
-    operator_.gradient(p, gp);
-    bookMomentum(cloud, gp, dt, energy);
-    bookPressure(cloud, gp, dt, energy);
+    bookMomentum(cloud, dt, energy);
+    bookPressure(cloud, dt, energy);
 }
 
 // (6.10) and (6.12), over the rows that the ledger counts, without the step's first line
-void fractionalStep::bookMomentum(particleCloud& cloud, const List<vec4>& gp, scalar dt,
-                                  energyLedger& energy)
+void fractionalStep::bookMomentum(particleCloud& cloud, scalar dt, energyLedger& energy)
 {
     List<vec4> lap;
     sticks_.resize(cloud.nAll());
@@ -174,7 +169,7 @@ void fractionalStep::bookMomentum(particleCloud& cloud, const List<vec4>& gp, sc
         const vector viscous = -2 * dt * nu_ * lap[i].xyz(), a = dt * added_[i].xyz();
         forced += u.dot(a);
         crossed += (u - sticks_[i].xyz()).dot(viscous);
-        left += u.dot(gained + dt / rho_ * gp[i].xyz() - a - viscous);
+        left += u.dot(gained + dt / rho_ * gradient_[i].xyz() - a - viscous);
     }
     const scalar m = rho_ * cloud.volume();
     energy.bookFriction(viscous_.powerOf(sticks_), m * dt * nu_);
@@ -184,27 +179,28 @@ void fractionalStep::bookMomentum(particleCloud& cloud, const List<vec4>& gp, sc
 }
 
 // (6.11) and (6.6): what p does, row by row of continuity
-void fractionalStep::bookPressure(particleCloud& cloud, List<vec4>& gp, scalar dt,
-                                  energyLedger& energy)
+void fractionalStep::bookPressure(particleCloud& cloud, scalar dt, energyLedger& energy)
 {
     List<vec4> m(cloud.nAll());
     List<scalar> damps(cloud.n()), direct(cloud.n(), 0);
-    pair_.remainder(gp, m, direct);
+    pair_.remainder(gradient_, m, direct);
     cloud.fillGradientGhosts(m);
     pair_.divergence(m, damps);
     const scalar level = energy.level(cloud.Up);
-    const List<scalar> div = divergence(cloud), &all = pair_.wallFlux(), &faces = pair_.faceFlux();
+    const List<scalar>&all = pair_.wallFlux(), &faces = pair_.faceFlux();
+    div_ = divergence(cloud);
     for (label i = 0; i < cloud.n(); ++i)
     {
         const scalar S = dt / rho_ * (direct[i] - damps[i]);
         const scalar face = faces.empty() ? 0 : faces[i];
-        cloud.takeIn(i, div[i] + S);
-        energy.bookRow(i, {cloud.Up[i][3], S, div[i] + S, source_[i], all[i], face, gp[i].xyz()},
+        const scalar row = div_[i] + S;
+        cloud.takeIn(i, row);
+        energy.bookRow(i, {cloud.Up[i][3], S, row, source_[i], all[i], face, gradient_[i].xyz()},
                        level, dt);
     }
 }
 
-void fractionalStep::correct(particleCloud& cloud, scalar dt) const
+void fractionalStep::correct(particleCloud& cloud, scalar dt)
 {
     const List<vec4> change = corrected(cloud, dt);
     for (label i = 0; i < cloud.n(); ++i) cloud.Up[i].s -= change[i].s;
@@ -249,12 +245,11 @@ void fractionalStep::solvePressure(particleCloud& cloud, const List<scalar>& f, 
     for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] = p_[i] + level;
 }
 
-void fractionalStep::printContinuityErrors(particleCloud& cloud, const stencil&,
-                                           const List<scalar>& q, scalar dt)
+// Of the velocities that are booked
+void fractionalStep::printContinuityErrors(particleCloud& cloud, const List<scalar>& q, scalar dt)
 {
-    List<scalar> left = divergence(cloud);
-    for (label i = 0; i < cloud.n(); ++i) left[i] -= q.empty() ? 0 : q[i];
-    ispf::printContinuityErrors(cloud, left, dt);
+    for (label i = 0; i < cloud.n(); ++i) div_[i] -= q.empty() ? 0 : q[i];
+    ispf::printContinuityErrors(cloud, div_, dt);
 }
 
 }  // namespace ispf

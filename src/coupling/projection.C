@@ -183,7 +183,7 @@ void projection::solve(const stencil& s, scalar dt)
     hydrostatic_.giveBack(cloud), addSlope(1, slope_);
     if (slope_.isZero(0)) cloud.history.erase(slopeOfStep);
     else cloud.history[slopeOfStep] = {slope_[0], slope_[1], slope_[2]};
-    step_.printContinuityErrors(cloud, s, q, dt);
+    step_.printContinuityErrors(cloud, q, dt);
     density_.book(cloud, dt);
 }
 

@@ -16,7 +16,7 @@ struct view
     const neighbourList& list;
     const std::int64_t* end;
     const vec4* x;
-    const vec4* a;
+    const face* a;
 };
 
 ISPF_HOT void gradientRange(const view& v, const vec4* phi, label begin, label end, vec4* gp)
@@ -26,7 +26,7 @@ ISPF_HOT void gradientRange(const view& v, const vec4* phi, label begin, label e
         const scalar pi = phi[i].s[3];
         simd4 sum = {};
         for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
-            sum += (phi[v.list.index[k]].s[3] - pi) * v.a[k].s;
+            sum += (phi[v.list.index[k]].s[3] - pi) * wide(v.a[k]);
         gp[i].s = sum;
     }
 }
@@ -50,7 +50,7 @@ ISPF_HOT void divergenceRange(const view& v, const vec4* u, label begin, label e
         const simd4 ui = u[i].s;
         simd4 sum = {};
         for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
-            sum += v.a[k].s * (ui + u[v.list.index[k]].s);
+            sum += wide(v.a[k]) * (ui + u[v.list.index[k]].s);
         div[i] = sum[0] + sum[1] + sum[2];
     }
 }
@@ -144,8 +144,7 @@ tensor adjointPair::momentOf(label i) const
 {
     tensor sum = moment_[i];
     for (std::int64_t k = list_->start[i]; k < (*within_.end)[i]; ++k)
-        sum +=
-            faces_.a[k].xyz() * (cloud_->x[list_->index[k]].xyz() - cloud_->x[i].xyz()).transpose();
+        sum += faces_.of(k) * (cloud_->x[list_->index[k]].xyz() - cloud_->x[i].xyz()).transpose();
     return sum;
 }
 
@@ -154,7 +153,7 @@ scalar adjointPair::cell(label i) const
     scalar sum = moment_[i].trace();
     for (std::int64_t k = list_->start[i]; k < (*within_.end)[i]; ++k)
     {
-        const simd4 s = faces_.a[k].s * (cloud_->x[list_->index[k]].s - cloud_->x[i].s);
+        const simd4 s = wide(faces_.a[k]) * (cloud_->x[list_->index[k]].s - cloud_->x[i].s);
         sum += s[0] + s[1] + s[2];
     }
     return sum / cloud_->nDims;
@@ -261,7 +260,7 @@ void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& dr
         for (std::int64_t k = list_->start[i]; k < list_->own[i]; ++k)
         {
             const label j = list_->index[k];
-            const vector a = 2 * cloud.volume() * faces_.a[k].xyz();
+            const vector a = 2 * cloud.volume() * faces_.of(k);
             lacks[group[faceOf(j)]] -= a.dot(velocity(i, j)), area[group[faceOf(j)]] += a.norm();
         }
     const auto added = [&](size_t f) {  // [m/s]
@@ -277,7 +276,7 @@ void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& dr
             for (std::int64_t k = list_->start[i]; k < list_->own[i]; ++k)
             {
                 const label j = list_->index[k];
-                const vector a = faces_.a[k].xyz(), x = cloud.x[j].xyz() - cloud.x[i].xyz();
+                const vector a = faces_.of(k), x = cloud.x[j].xyz() - cloud.x[i].xyz();
                 const scalar through = a.dot(velocity(i, j)) + a.norm() * added(faceOf(j));
                 faceFlux_[i] += 2 * through;
                 linear[i] += a * x.transpose(), drag[i].s += through * vec4::from(x).s;

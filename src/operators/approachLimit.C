@@ -43,6 +43,7 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
     const label first = cloud.nSolid(), nFluid = cloud.n() - first;
     List<char> meets(nFluid, 0);
     label exchanges = 0;
+    const scalar reach = closest + 2 * cloud.maxSpeed() * dt;
     for (int sweep = 0; sweep < mostSweeps; ++sweep)
     {
         parallelFor(nFluid, [&](label begin, label end) {
@@ -51,7 +52,12 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
                 const label i = first + k;
                 meets[k] = 0;
                 for (std::int64_t m = list.start[i]; m < list.wall[i] && !meets[k]; ++m)
-                    meets[k] = approachOf(cloud, i, list.index[m], closest, dt).lacks > 0;
+                {
+                    const label j = list.index[m];
+                    const simd4 d = cloud.x[i].s - cloud.x[j].s, dd = d * d;
+                    if (dd[0] + dd[1] + dd[2] < reach * reach)
+                        meets[k] = approachOf(cloud, i, j, closest, dt).lacks > 0;
+                }
             }
         });
         if (std::find(meets.begin(), meets.end(), 1) == meets.end()) break;

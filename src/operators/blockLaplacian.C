@@ -14,15 +14,12 @@ blockLaplacian::blockLaplacian(const graph& g, const List<scalar>& holds) : g_(g
     findBlocks();
     const label first = g_.within.first, end = g_.cloud.n();
     const int nMatrices = g_.cloud.freeDirections().isIdentity(1e-9) ? 1 : 3;
-    const List<Eigen::MatrixXd> zero(nMatrices, Eigen::MatrixXd::Zero(n_, n_));
-    List<Eigen::MatrixXd> A = zero;
+    List<Eigen::MatrixXd> A(nMatrices, Eigen::MatrixXd::Zero(n_, n_));
     const auto ofPart = [&](label from, label to) {
-        List<Eigen::MatrixXd> part = zero;
-        addPairs(first + from, first + to, part);
-        return part;
+        return pairs(first + from, first + to, nMatrices);
     };
-    for (const List<Eigen::MatrixXd>& part : parallelParts(end - first, ofPart))
-        for (int d = 0; d < nMatrices; ++d) A[d] += part[d];
+    for (const List<entry>& part : parallelParts(end - first, ofPart))
+        for (const entry& e : part) A[e.component](e.row, e.column) += e.value;
     for (Eigen::MatrixXd& ofComponent : A)
     {
         for (label i = first; i < end; ++i)
@@ -57,10 +54,11 @@ void blockLaplacian::findBlocks()
 
 // w_ij |psi_i - R psi_j|^2 of each pair, for the image j of a particle R its turn.  A strip has no psi in directions that
 // symmetry planes turn
-void blockLaplacian::addPairs(label from, label to, List<Eigen::MatrixXd>& A) const
+List<blockLaplacian::entry> blockLaplacian::pairs(label from, label to, label nMatrices) const
 {
     const particleCloud& cloud = g_.cloud;
     const tensor free = cloud.freeDirections();
+    List<entry> entries;
     for (label i = from; i < to; ++i)
     {
         const label own = block_[i];
@@ -68,18 +66,21 @@ void blockLaplacian::addPairs(label from, label to, List<Eigen::MatrixXd>& A) co
         for (std::int64_t k = g_.list.start[i]; k < (*g_.within.end)[i]; ++k)
         {
             const label j = g_.list.index[k], owner = cloud.ownerOf(j), other = block_[owner];
-            if (g_.inStrip[i] && g_.inStrip[owner]) continue;
+            // within a block psi is the same
+            if ((other == own && j < cloud.n()) || (g_.inStrip[i] && g_.inStrip[owner])) continue;
             const scalar w = -g_.list.F[k];
-            for (int d = 0; d < int(A.size()); ++d)
+            for (label d = 0; d < nMatrices; ++d)
             {
                 const bool turns = free(d, d) < 0.5;
                 if (g_.inStrip[i] && turns) continue;
-                A[d](own, own) += w;
+                entries.push_back({own, own, d, w});
                 if (other < 0 || (g_.inStrip[owner] && turns)) continue;
-                A[d](own, other) -= w * (j < cloud.n() ? 1 : cloud.ruleOf(j).R(d, d));
+                const scalar turned = j < cloud.n() ? 1 : cloud.ruleOf(j).R(d, d);
+                entries.push_back({own, other, d, -w * turned});
             }
         }
     }
+    return entries;
 }
 
 void blockLaplacian::solve(const List<vec4>& r, const List<scalar>& weight, List<vec4>& z) const

@@ -124,14 +124,21 @@ ISPF_HOT void sizeRange(const view& v, label begin, label end, scalar* size)
     }
 }
 
-ISPF_HOT void writeRange(const view& v, label begin, label end, vec4* a)
+// a_ij, and sum_j a_ij + b_i of them
+ISPF_HOT void writeRange(const view& v, const vec4* b, label begin, label end, face* a, vec4* left)
 {
     for (label i = begin; i < end; ++i)
+    {
+        simd4 sum = b[i].s * inSpace;
         for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
         {
             const label j = v.index[k];
-            a[k].s = -v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j));
+            a[k] = __builtin_convertvector(
+                -v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j)), face);
+            sum += wide(a[k]);
         }
+        left[i].s = sum;
+    }
 }
 
 scalar squareOf(const vec4& a)
@@ -319,20 +326,15 @@ public:
         share_ = std::move(share);
     }
 
-    void write(List<vec4>& a, List<vec4>& psi) const
+    // Once closed.  What is left is less its mean over each body, so that a level of p has no gradient
+    void write(const List<vec4>& b, faceVectors& faces, List<vec4>& psi,
+               faceVectors::closure& result) const
     {
-        a.resize(list_.index.size());
-        forRanges([&](label i, label end) { writeRange(sight(), i, end, a.data()); });
-        psi.assign(psi_.begin(), psi_.begin() + cloud_.n());
-    }
-
-    const List<char>& poor() const { return poor_; }
-    const connectedBodies& bodies() const { return bodies_; }
-    // Once closed.  Less its mean over each body, so that a level of p has no gradient
-    List<vec4> left(const List<vec4>& b, faceVectors::closure& result) const
-    {
-        List<vec4> c(cloud_.n(), vec4{});
-        forRanges([&](label i, label end) { openRange(sight(), b.data(), i, end, c.data()); });
+        List<vec4>& c = faces.left;
+        faces.a.resize(list_.index.size()), c.assign(cloud_.n(), vec4{});
+        forRanges([&](label i, label end) {
+            writeRange(sight(), b.data(), i, end, faces.a.data(), c.data());
+        });
         label nClosed = 0;
         scalar squares = 0;
         for (label i = within_.first; i < cloud_.n(); ++i)
@@ -342,7 +344,8 @@ public:
         }
         result.defect = cloud_.dx * std::sqrt(squares / std::max<label>(1, nClosed));
         removeMeans(c, [](label) { return true; });
-        return c;
+        psi.assign(psi_.begin(), psi_.begin() + cloud_.n());
+        faces.poor = poor_, faces.bodies = bodies_;
     }
 
 private:
@@ -513,8 +516,7 @@ faceVectors::closure faceVectors::build(const particleCloud& cloud, const neighb
     for (int k = 0; k < sweeps; ++k) faces.sweep(M);
     faces.shorten();
     faces.close(b, tolerance, result);
-    faces.write(a, psi);
-    poor = faces.poor(), left = faces.left(b, result), bodies = faces.bodies();
+    faces.write(b, *this, psi, result);
     return result;
 }
 

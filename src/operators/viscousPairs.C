@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viscousPairs.H"
 
+#include "blockSums.H"
+
 namespace ispf
 {
 
@@ -79,15 +81,13 @@ viscousPairs::power viscousPairs::powerOf(const List<vec4>& u) const
             else sum.dissipated += half;
         }
     };
-    const auto part = [&](scalar power::*which) {
-        return parallelSum(cloud.n(), [&](label begin, label end) {
-            power sum;
-            for (label i = begin; i < end; ++i)
-                if (cloud.isFree(i)) row(i, sum);
-            return sum.*which;
-        });
-    };
-    return {part(&power::dissipated), part(&power::walls), part(&power::faces)};
+    const List<scalar> sums = blockSums(cloud.n(), 3, [&](label begin, label end, scalar* of) {
+        power sum;
+        for (label i = begin; i < end; ++i)
+            if (cloud.isFree(i)) row(i, sum);
+        of[0] = sum.dissipated, of[1] = sum.walls, of[2] = sum.faces;
+    });
+    return {sums[0], sums[1], sums[2]};
 }
 
 void viscousPairs::neighbours(const List<vec4>& phi, List<vec4>& result) const

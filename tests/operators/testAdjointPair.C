@@ -70,10 +70,11 @@ TEST_CASE(
             for (label i = 0; i < n; ++i)
             {
                 CHECK(std::abs(div[i]) < 1e-11);  // what closure leaves is taken out
-                open.push_back(w.open(w.pair.faces(), i).norm());
+                open.push_back(w.open([&](auto k) { return w.pair.face(k); }, i).norm());
                 lacks[body(cloud.x[i].xyz())] += cloud.volume() * gp[i].xyz();
                 size += cloud.volume() * gp[i].xyz().norm();
-                tight = std::max(tight, cloud.dx * w.open(w.tight.a, i).norm());
+                tight = std::max(
+                    tight, cloud.dx * w.open([&](auto k) { return w.tight.of(k); }, i).norm());
             }
             w.forShares(p, [&](const surfaceElement& e, scalar part, scalar at) {
                 lacks[body(e.x)] -= part * at * e.S;

@@ -194,8 +194,7 @@ TEST_CASE("the cells of fluid between walls fill the room, whatever is missing")
             {
                 scalar cell = pair.walls().moment[i].trace();
                 for (auto k = box.list.start[i]; k < box.list.mid[i]; ++k)
-                    cell += pair.faces()[k].xyz().dot(cloud.x[box.list.index[k]].xyz() -
-                                                      cloud.x[i].xyz());
+                    cell += pair.face(k).dot(cloud.x[box.list.index[k]].xyz() - cloud.x[i].xyz());
                 worst = std::max(worst, std::abs(pair.cell(i) - cell / nDims));
                 room += pair.cell(i);
             }
