@@ -159,6 +159,11 @@ vector boundary::wayOverCyclic(const vector& x) const
     return content_->group.wayOverCyclic(x);
 }
 
+void boundary::limitApproach(particleCloud& cloud, scalar gap, scalar dt) const
+{
+    if (!content_->walls.empty()) content_->guard.limitApproach(cloud, content_->walls, gap, dt);
+}
+
 label boundary::exchange(particleCloud& cloud, scalar t1)
 {
     content& c = *content_;

@@ -44,6 +44,44 @@ struct pusher
     }
 };
 
+// One particle before its move, in space
+struct approaching
+{
+    const wallSet::body& body;
+    const bodyFrame& frame;
+    const List<wall>& walls;
+    scalar gap, dt;
+    bool inStrip;
+
+    bool finds(const surfaceFoot& f) const { return f.found && (f.aside == 0 || inStrip); }
+
+    // From where it was seen it is shifted no nearer than to the gap, (8.36)
+    void limitShift(vector& x, const vector& seen) const
+    {
+        const surfaceFoot f = body.surface->find(frame.toBody(x));
+        if (!finds(f) || !(f.depth > -gap)) return;
+        const surfaceFoot before = body.surface->find(frame.toBody(seen));
+        const scalar most = finds(before) ? std::max(before.depth, -gap) : -gap;
+        if (f.depth > most) x -= (f.depth - most) * frame.turn(f.normal);
+    }
+    // Nor moves nearer.  Was the velocity changed?
+    bool limitVelocity(const vector& x, vector& u) const
+    {
+        const surfaceFoot now = body.surface->find(frame.toBody(x));
+        if (!finds(now)) return false;
+        const vector relative = u - walls[body.walls[now.patch]].velocity.at(x);
+        if (-now.depth - gap > dt * relative.norm()) return false;
+        const surfaceFoot then = body.surface->find(frame.toBody(x + dt * relative));
+        const scalar most = std::max(now.depth, -gap);
+        if (!finds(then) || !(then.depth > most)) return false;
+        const vector n = frame.turn(then.normal);
+        const scalar into = relative.dot(n);
+        if (!(into > 0)) return false;
+        u -= std::min(into, (then.depth - most) / dt) * n;
+        return true;
+    }
+};
+
 // A particle put back keeps no velocity into the wall: its inertia would press on, step after step
 void putBack(particleCloud& cloud, label i, const vector& x, const vector& wallVelocity)
 {
@@ -91,6 +129,37 @@ List<label> wallGuard::apply(particleCloud& cloud, const wallSet& walls) const
     for (const label w : hit)
         if (w >= 0) ++pushed[w];
     return pushed;
+}
+
+void wallGuard::limitApproach(particleCloud& cloud, const wallSet& walls, scalar gap,
+                              scalar dt) const
+{
+    const label first = cloud.nSolid(), n = cloud.n() - first;
+    const auto field = cloud.vectors.find(seenField);
+    const bool hasSeen = field != cloud.vectors.end();
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = first + begin; i < first + end; ++i)
+        {
+            if (cloud.uFixed[i]) continue;
+            vector x = cloud.x[i].xyz(), u = cloud.Up[i].xyz();
+            bool again = true;
+            for (int pass = 0; pass < passes && again; ++pass)
+            {
+                again = false;
+                for (const wallSet::body& body : walls.bodies())
+                {
+                    const bodyFrame& frame = walls.frame(body);
+                    if (body.surface->surelyFar(frame.toBody(x)) &&
+                        body.surface->surelyFar(frame.toBody(x + dt * u)))
+                        continue;
+                    const approaching a{body, frame, walls.walls(), gap, dt, cloud.beyondOpen(i)};
+                    if (hasSeen) a.limitShift(x, field->second[i].xyz());
+                    again = a.limitVelocity(x, u) || again;
+                }
+            }
+            cloud.x[i].setXyz(x), cloud.Up[i].setXyz(u);
+        }
+    });
 }
 
 void wallGuard::remember(particleCloud& cloud) const

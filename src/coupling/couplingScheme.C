@@ -84,6 +84,8 @@ void couplingScheme::shift(const particleShifting& shifting, scalar dt)
     energy_.shifts([&] {
         shifting.shift(c_.cloud, c_.list, c_.correction, dt, energy_.heated(),
                        [&](label i) { return c_.walls->nearOpen(i); });
+        if (const scalar gap = 0.5 * shifting.closest(); gap > 0)
+            c_.walls->limitApproach(c_.cloud, gap * c_.cloud.dx, dt);
     });
 }
 
