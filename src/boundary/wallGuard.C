@@ -64,21 +64,26 @@ struct approaching
         const scalar most = finds(before) ? std::max(before.depth, -gap) : -gap;
         if (f.depth > most) x -= (f.depth - most) * frame.turn(f.normal);
     }
-    // Nor moves nearer.  Was the velocity changed?
+    // Nor moves nearer: to the tangent plane at its foot, then to where it would be.  Was the velocity changed?
     bool limitVelocity(const vector& x, vector& u) const
     {
         const surfaceFoot now = body.surface->find(frame.toBody(x));
         if (!finds(now)) return false;
-        const vector relative = u - walls[body.walls[now.patch]].velocity.at(x);
-        if (-now.depth - gap > dt * relative.norm()) return false;
-        const surfaceFoot then = body.surface->find(frame.toBody(x + dt * relative));
-        const scalar most = std::max(now.depth, -gap);
-        if (!finds(then) || !(then.depth > most)) return false;
-        const vector n = frame.turn(then.normal);
-        const scalar into = relative.dot(n);
-        if (!(into > 0)) return false;
-        u -= std::min(into, (then.depth - most) / dt) * n;
-        return true;
+        const vector wall = walls[body.walls[now.patch]].velocity.at(x);
+        const scalar room = std::max(-now.depth - gap, scalar(0));
+        if (room > dt * (u - wall).norm()) return false;
+        const auto meets = [&](const vector& n, scalar tooFar) {
+            const scalar into = (u - wall).dot(n);
+            if (!(into > 0 && tooFar > 0)) return false;
+            u -= std::min(into, tooFar / dt) * n;
+            return true;
+        };
+        const vector n = frame.turn(now.normal);
+        bool met = meets(n, dt * (u - wall).dot(n) - room);
+        const surfaceFoot then = body.surface->find(frame.toBody(x + dt * (u - wall)));
+        if (finds(then))
+            met = meets(frame.turn(then.normal), then.depth - std::max(now.depth, -gap)) || met;
+        return met;
     }
 };
 

@@ -15,10 +15,14 @@ namespace
 constexpr int mostHalvings = 4;
 // Way of a particle in one step [dx]
 constexpr scalar farthest = 0.6;
+// Local error of a particle's way in one step [dx], and the share of it that the next step is to have
+constexpr scalar roughest = 0.2, aimedAt = 0.8;
 // Share of the energies at hand that a step may gain from nothing
 constexpr scalar mostGained = 0.05;
 // Way of the fastest particle in one step [dx] below which what is gained is rounding
 constexpr scalar atRest = 1e-9;
+// Entry of cloud.history: largest local error of a way in the last step over dt^2 [m/s^2]
+const word roughOfStep = "wayError";
 
 }  // namespace
 
@@ -77,6 +81,31 @@ word couplingScheme::tooFar(scalar dt) const
         return cloud.describe(i) + " would move " + str(way / cloud.dx, 3) + " dx";
     }
     return "";
+}
+
+word couplingScheme::tooRough(const timeScheme& time, scalar dt, bool mean)
+{
+    const particleCloud& cloud = c_.cloud;
+    const scalar most = roughest * cloud.dx;
+    scalar worst = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        if (!cloud.isFree(i)) continue;
+        const scalar error = time.errorOfWay(cloud, i, mean);
+        worst = std::max(worst, error);
+        if (error > most)
+            return "the way of " + cloud.describe(i) + " is uncertain by " +
+                   str(error / cloud.dx, 3) + " dx, so fast does its velocity change";
+    }
+    if (c_.time.adjustTimeStep()) c_.cloud.history[roughOfStep] = {worst / (dt * dt)};
+    return "";
+}
+
+couplingScheme::stepLimit couplingScheme::roughness() const
+{
+    const auto known = c_.cloud.history.find(roughOfStep);
+    if (known == c_.cloud.history.end() || !(known->second.at(0) > 0)) return {1e30, "no"};
+    return {std::sqrt(aimedAt * roughest * c_.cloud.dx / known->second[0]), "local error"};
 }
 
 void couplingScheme::shift(const particleShifting& shifting, scalar dt)

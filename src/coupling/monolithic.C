@@ -130,7 +130,8 @@ couplingScheme::stepLimit monolithic::limit() const
     c_.walls->setStep(c_.time.value(), c_.stepEnd());
     const scalar u = velocityScale();
     if (!c_.time.adjustTimeStep() || u == 0) return {1e30, "no"};
-    return {0.4 * c_.kernel->h() / u, "CFL"};
+    const stepLimit rough = roughness(), own = {0.4 * c_.kernel->h() / u, "CFL"};
+    return rough.dt < own.dt ? rough : own;
 }
 
 void monolithic::structureState()
@@ -301,12 +302,12 @@ word monolithic::attempt(scalar t, scalar dt)
     if (const word reason = atTime(t + dt, [&] { return solve(dt, z); }); !reason.empty())
         return reason;
     accept(z);
-    energy_.weigh(time_.weight(),
-                  [&] { system_.book(start, theta_, springForce_, q_, energy_); });
+    energy_.weigh(time_.weight(), [&] { system_.book(start, theta_, springForce_, q_, energy_); });
     if (const word reason = tooFar(dt); !reason.empty()) return reason;
     account(dt);
     time_.end(cloud, energy_);
     system_.hydrostatic().giveBack(cloud);
+    if (const word reason = tooRough(time_, dt); !reason.empty()) return reason;
 
     c_.followOpen(dt);
     // Shift first, with the neighbours at hand, then move

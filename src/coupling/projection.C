@@ -94,7 +94,9 @@ couplingScheme::stepLimit projection::limit() const
 {
     c_.walls->setStep(c_.time.value(), c_.stepEnd());
     List<vec4> spring;
-    return limits_.ruling(accelerations(c_.walls->pressureSlope(), spring));
+    const stepLimit own = limits_.ruling(accelerations(c_.walls->pressureSlope(), spring));
+    const stepLimit rough = roughness();
+    return c_.time.adjustTimeStep() && rough.dt < own.dt ? rough : own;
 }
 
 // Body force of the zone, springs, Eq. (2) of the paper, and the slope of p along cyclic patches
@@ -211,6 +213,7 @@ word projection::attempt(scalar t, scalar dt)
     if (!fails.empty()) return fails;
     if (const word reason = tooFar(dt); !reason.empty()) return reason;
     time_.end(cloud, energy_);
+    if (const word reason = tooRough(time_, dt, mean_); !reason.empty()) return reason;
     c_.followOpen(dt);
     // shifted with the neighbours at hand, then moved
     shift(shifting_, dt);

@@ -113,16 +113,26 @@ void timeScheme::end(particleCloud& cloud, energyLedger& energy)
     cloud.history[levelBefore] = {dt_};
 }
 
+// Velocity with which particle i goes through the step
+simd4 timeScheme::mover(const particleCloud& cloud, label i, bool mean) const
+{
+    if (const vec4* way = DLN_ ? fieldOf(cloud, lastWay) : nullptr) return way[i].s;
+    return mean ? 0.5 * (now_[i].s + cloud.Up[i].s) : cloud.Up[i].s;
+}
+
+scalar timeScheme::errorOfWay(const particleCloud& cloud, label i, bool mean) const
+{
+    const vec4 e{mover(cloud, i, mean) - 0.5 * (now_[i].s + cloud.Up[i].s)};
+    return dt_ * e.xyz().norm();
+}
+
 void timeScheme::move(particleCloud& cloud, bool mean) const
 {
-    const vec4* way = DLN_ ? fieldOf(cloud, lastWay) : nullptr;
     const vec4* ahead = to_ > 0 ? fieldOf(cloud, aheadOfStep) : nullptr;
     parallelFor(cloud.n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
-            const simd4 u = way    ? way[i].s
-                            : mean ? 0.5 * (now_[i].s + cloud.Up[i].s)
-                                   : cloud.Up[i].s;
+            const simd4 u = mover(cloud, i, mean);
             cloud.x[i].s += dt_ * simd4{u[0], u[1], u[2], 0};
             if (ahead) cloud.x[i].s -= ahead[i].s;
         }

@@ -302,3 +302,50 @@ TEST_CASE("the guard keeps particles on their side of a sheet, by small steps an
         CHECK(nearest > 0.149 * dx);
     }
 }
+
+TEST_CASE(
+    "walls are met without rebound: no nearer than the gap, energy falls, the guard has nothing to "
+    "do")
+{
+    const List<vector> points =
+        jittered(lattice(dx, vector::Zero(), {side, side, side}, insideBox), 0.2);
+    const scalar gap = 0.2 * dx;
+    seen s(points, sheet({0, 0, 5}, {side, 0, 0}, {0, side, 0}, 3), "twoSided yes;", cyclicSides);
+    s.walls->exchange(s.cloud, 0);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<scalar> unit(-1, 1);
+    const auto any = [&] { return vector(unit(random), unit(random), unit(random)); };
+    const auto distance = [](const vector& x) { return std::abs(x[2] - 5); };
+    label shifted = 0, slowed = 0;
+    for (int step = 1; step < 20; ++step)
+    {
+        s.walls->setStep(step - 1, step);
+        List<vector> from, u, to;
+        for (label i = 0; i < s.cloud.n(); ++i)
+        {
+            from.push_back(s.cloud.x[i].xyz()), u.push_back(0.5 * dx * any()),
+                to.push_back(from[i] + 0.05 * dx * any());
+            s.cloud.x[i].setXyz(to[i]), s.cloud.Up[i].setXyz(u[i]);
+        }
+        s.walls->limitApproach(s.cloud, gap, 1);
+        for (label i = 0; i < s.cloud.n(); ++i)
+        {
+            const vector x = s.cloud.x[i].xyz(), now = s.cloud.Up[i].xyz(), end = x + now;
+            shifted += (x - to[i]).norm() > 0, slowed += (now - u[i]).norm() > 0;
+            CHECK(now.norm() <= u[i].norm() + 1e-15);
+            const scalar before = std::min(distance(from[i]), gap);
+            CHECK(distance(x) >= before - 1e-12);
+            CHECK(distance(end) >= before - 1e-12);
+            CHECK((from[i][2] < 5) == (end[2] < 5));
+            // along the wall nothing changes
+            CHECK((now - u[i]).head<2>().norm() < 1e-12);
+            if (distance(to[i]) > gap + 0.5 * dx) CHECK(now == u[i]);
+        }
+        for (label i = 0; i < s.cloud.n(); ++i)
+            s.cloud.x[i].setXyz(s.cloud.x[i].xyz() + s.cloud.Up[i].xyz());
+        CHECK(s.walls->exchange(s.cloud, step) == 0);
+        s.walls->updateGhosts(s.cloud);
+    }
+    CHECK(shifted > 20);
+    CHECK(slowed > 100);
+}

@@ -159,3 +159,24 @@ TEST_CASE("a step in which particles would pass each other is halved, with eithe
         CHECK(run.c.cloud.history.at(kept).at(0) == relative(1e-3, 1e-12));
     }
 }
+
+TEST_CASE(
+    "a step in which velocities change too fast for its order is halved, with either coupling")
+{
+    for (const word coupling : {"projection", "monolithic"})
+        for (const scalar way :
+             {0.35, 0.45})  // in a step from rest, half of which is uncertain [dx]
+        {
+            CAPTURE(coupling);
+            CAPTURE(way);
+            boxCase box;
+            const scalar dt = 2e-3, drop = 1000 * box.length() * way * box.dx / (dt * dt);
+            box.patch = {"type cyclic; pressureDrop " + str(drop) + ";", "", still, still};
+            box.coupling = coupling;
+            runningBox run(box);
+            run.run(dt, 1);
+            CHECK(run.time.value() == relative(dt, 1e-12));
+            const word kept = coupling == "projection" ? "projectedStep" : "Up_0";
+            CHECK(run.c.cloud.history.at(kept).at(0) == relative(way < 0.4 ? dt : dt / 2, 1e-12));
+        }
+}
