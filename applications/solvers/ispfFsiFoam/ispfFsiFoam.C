@@ -37,7 +37,7 @@ scalar chooseDeltaT(const Time& time, const couplingScheme::stepLimit& limit)
     return asked;
 }
 
-// U dx/nu: measured, swirls of a few dx gain energy where it is 190 (fluid alone, closed box, both couplings)
+// U dx/nu: beyond it viscosity does not resolve what is a few dx wide; no energy is gained, doc/theory 8
 bool isUnresolved(const fsiCase& c)
 {
     if (c.cloud.nSolid() == c.cloud.n()) return false;
@@ -45,7 +45,9 @@ bool isUnresolved(const fsiCase& c)
     if (!(Re > mostCellReynolds)) return false;
     warning("time " + c.time.timeName() + " s: cell Reynolds number U dx/nu is " + str(Re, 3) +
             ", above " + str(mostCellReynolds) +
-            ": eddies of a few dx are not damped, and the flow may gain energy. Refine");
+            ": viscosity does not damp eddies of a few dx, the stabiliser and the step do (see the "
+            "energy ledger). "
+            "Refine, or take the flow's details as told by them");
     return true;
 }
 
