@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 namespace ispf
@@ -16,18 +17,28 @@ struct view
     const neighbourList& list;
     const std::int64_t* end;
     const vec4* x;
-    const face* a;
+    const faceVectors& faces;
+
+    // Components of the first nDims, and what lies behind them
+    ISPF_INLINE simd4 face(std::int64_t k) const
+    {
+        simd4 a;
+        std::memcpy(&a, faces.a.data() + faces.nDims * k, sizeof a);
+        return a;
+    }
+    simd4 inSpace() const { return simd4{1, 1, faces.nDims == 3 ? 1.0 : 0.0, 0}; }
 };
 
 ISPF_HOT void gradientRange(const view& v, const vec4* phi, label begin, label end, vec4* gp)
 {
+    const simd4 inSpace = v.inSpace();
     for (label i = begin; i < end; ++i)
     {
         const scalar pi = phi[i].s[3];
         simd4 sum = {};
         for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
-            sum += (phi[v.list.index[k]].s[3] - pi) * wide(v.a[k]);
-        gp[i].s = sum;
+            sum += (phi[v.list.index[k]].s[3] - pi) * v.face(k);
+        gp[i].s = sum * inSpace;
     }
 }
 
@@ -45,13 +56,14 @@ ISPF_INLINE simd4 plainGradient(const view& v, const vec4* phi, label i)
 
 ISPF_HOT void divergenceRange(const view& v, const vec4* u, label begin, label end, scalar* div)
 {
+    const scalar inSpace = v.inSpace()[2];
     for (label i = begin; i < end; ++i)
     {
         const simd4 ui = u[i].s;
         simd4 sum = {};
         for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
-            sum += wide(v.a[k]) * (ui + u[v.list.index[k]].s);
-        div[i] = sum[0] + sum[1] + sum[2];
+            sum += v.face(k) * (ui + u[v.list.index[k]].s);
+        div[i] = sum[0] + sum[1] + inSpace * sum[2];
     }
 }
 
@@ -153,8 +165,7 @@ scalar adjointPair::cell(label i) const
     scalar sum = moment_[i].trace();
     for (std::int64_t k = list_->start[i]; k < (*within_.end)[i]; ++k)
     {
-        const simd4 s = wide(faces_.a[k]) * (cloud_->x[list_->index[k]].s - cloud_->x[i].s);
-        sum += s[0] + s[1] + s[2];
+        sum += faces_.of(k).dot(cloud_->x[list_->index[k]].xyz() - cloud_->x[i].xyz());
     }
     return sum / cloud_->nDims;
 }
@@ -193,7 +204,7 @@ void adjointPair::addDrag(const List<tensor>& one, const List<vec4>& drag, List<
     for (label i = first; i < n; ++i)
         if (linearRow_[i] >= 0) h_[i] = vec4::from(-(one[i].transpose() * drag[i].xyz()));
     cloud_->fillGradientGhosts(h_);
-    const view v{*list_, within_.end->data(), cloud_->x.data(), faces_.a.data()};
+    const view v{*list_, within_.end->data(), cloud_->x.data(), faces_};
     for (label i = first; i < n; ++i)
         if (besideWall_[i]) flux[i] += wallPart(v, h_.data(), i);
 }
@@ -288,7 +299,7 @@ void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& dr
 void adjointPair::gradient(const List<vec4>& phi, List<vec4>& gp) const
 {
     const label first = within_.first;
-    const view v{*list_, within_.end->data(), cloud_->x.data(), faces_.a.data()};
+    const view v{*list_, within_.end->data(), cloud_->x.data(), faces_};
     const List<vec4>& c = faces_.left;
     const List<vec4> all = twiceMean([&](label i, int d) { return c[i][d] * phi[i][3]; });
     parallelFor(cloud_->n() - first, [&](label begin, label end) {
@@ -307,7 +318,7 @@ void adjointPair::gradient(const List<vec4>& phi, List<vec4>& gp) const
 void adjointPair::divergence(const List<vec4>& u, List<scalar>& div) const
 {
     const label first = within_.first, n = cloud_->n();
-    const view v{*list_, within_.end->data(), cloud_->x.data(), faces_.a.data()};
+    const view v{*list_, within_.end->data(), cloud_->x.data(), faces_};
     if (!linearB_.empty())
     {
         h_.assign(cloud_->nAll(), vec4{});
@@ -334,7 +345,7 @@ void adjointPair::divergence(const List<vec4>& u, List<scalar>& div) const
 void adjointPair::remainder(const List<vec4>& g, List<vec4>& m, List<scalar>& direct) const
 {
     const label first = within_.first;
-    const view v{*list_, within_.end->data(), cloud_->x.data(), faces_.a.data()};
+    const view v{*list_, within_.end->data(), cloud_->x.data(), faces_};
     parallelFor(cloud_->n() - first, [&](label begin, label end) {
         begin += first, end += first;
         remainderRange(v, g.data(), begin, end, m.data(), direct.data());

@@ -124,8 +124,9 @@ ISPF_HOT void sizeRange(const view& v, label begin, label end, scalar* size)
     }
 }
 
-// a_ij, and sum_j a_ij + b_i of them
-ISPF_HOT void writeRange(const view& v, const vec4* b, label begin, label end, face* a, vec4* left)
+// a_ij, and sum_j a_ij + b_i
+ISPF_HOT void writeRange(const view& v, const vec4* b, int nDims, label begin, label end, scalar* a,
+                         vec4* left)
 {
     for (label i = begin; i < end; ++i)
     {
@@ -133,9 +134,11 @@ ISPF_HOT void writeRange(const view& v, const vec4* b, label begin, label end, f
         for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
         {
             const label j = v.index[k];
-            a[k] = __builtin_convertvector(
-                -v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j)), face);
-            sum += wide(a[k]);
+            const simd4 face = -v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j));
+            sum += face;
+            scalar* kept = a + nDims * k;
+            kept[0] = face[0], kept[1] = face[1];
+            if (nDims == 3) kept[2] = face[2];
         }
         left[i].s = sum;
     }
@@ -331,9 +334,11 @@ public:
                faceVectors::closure& result) const
     {
         List<vec4>& c = faces.left;
-        faces.a.resize(list_.index.size()), c.assign(cloud_.n(), vec4{});
+        faces.nDims = cloud_.nDims;
+        // the last one is read as four numbers
+        faces.a.resize(faces.nDims * list_.index.size() + 4), c.assign(cloud_.n(), vec4{});
         forRanges([&](label i, label end) {
-            writeRange(sight(), b.data(), i, end, faces.a.data(), c.data());
+            writeRange(sight(), b.data(), faces.nDims, i, end, faces.a.data(), c.data());
         });
         label nClosed = 0;
         scalar squares = 0;
