@@ -36,8 +36,8 @@ public:
     probes(const word& name, const dictionary& dict, const fsiCase& c, fieldSampler::frame frame)
         : functionObject(name, dict, c),
           points_(dict.get<List<vector>>("probeLocations", dims::length)),
-          fields_(fieldsOf(c.cloud, dict, defaults(frame))),
           sampler_(dict, c, frame),
+          fields_(fieldsOf(c.cloud, dict, defaults(frame))),
           files_(fields_.size())
     {
         if (points_.empty()) dict.fail("probeLocations", "At least one point (x y z) is wanted.");
@@ -103,8 +103,8 @@ private:
     }
 
     List<vector> points_;
-    List<particleField> fields_;
     fieldSampler sampler_;
+    List<particleField> fields_;
     List<std::ofstream> files_;
 };
 

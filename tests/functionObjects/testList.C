@@ -113,6 +113,8 @@ TEST_CASE("mistakes in functions")
     CHECK_ERROR(wrong("a { type minMax; phase gas; }"), "Valid phases are: all fluid solid", 3);
     CHECK_ERROR(wrong("a { type minMax; phase all; zones (chamber); }"), "not both", 3);
     CHECK_ERROR(wrong("a { type probes; }"), "'probeLocations' is missing", 3);
+    CHECK_ERROR(wrong("a { type materialProbes; probeLocations ((0 0 0)); }"),
+                "No zone of the case is solid", 3);
     CHECK_ERROR(wrong("a { type minMax; writeInterval 0.5; }"), "a whole number", 3);
     CHECK_ERROR(wrong("a { type minMax; writeControl writeTime; writeInterval 2; }"),
                 "takes no writeInterval", 3);
