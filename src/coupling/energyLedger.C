@@ -62,21 +62,21 @@ scalar energyLedger::kineticNow() const
            });
 }
 
-std::array<scalar, energyLedger::nStores> energyLedger::energies() const
+std::array<scalar, energyLedger::nStores> energyLedger::energies(const List<vec4>& x) const
 {
     const particleCloud& cloud = c_.cloud;
     const scalar mass = c_.rho * cloud.volume();
     scalar heights = 0;
     for (label i = 0; i < cloud.n() && !c_.bodyForce.empty(); ++i)
-        if (c_.cloud.isFree(i)) heights -= c_.bodyForce[cloud.zone[i]].dot(cloud.x[i].xyz());
-    return {kineticNow(), c_.structure ? c_.structure->energy(cloud.x) : 0, mass * heights};
+        if (c_.cloud.isFree(i)) heights -= c_.bodyForce[cloud.zone[i]].dot(x[i].xyz());
+    return {kineticNow(), c_.structure ? c_.structure->energy(x) : 0, mass * heights};
 }
 
 // Energies have changed since the last step's end if particles were exchanged, or if a force has changed
-void energyLedger::begin()
+void energyLedger::begin(const List<vec4>& x)
 {
     terms_ = {}, left_ = 0;
-    begin_ = energies();
+    begin_ = energies(x);
     last_ = begin_;
     if (const List<scalar>& sums = state(); !std::isnan(sums[0]))
         std::copy_n(sums.begin(), nStores, last_.begin());
@@ -131,7 +131,7 @@ scalar energyLedger::bookSprings(const List<vec4>& f, scalar dt)
 
 void energyLedger::end()
 {
-    end_ = energies();
+    end_ = energies(c_.cloud.x);
     terms_[step] += end_[elastic] - begin_[elastic];
     terms_[forces] += end_[potential] - begin_[potential];
     left_ = std::accumulate(end_.begin(), end_.end(), scalar(0)) -

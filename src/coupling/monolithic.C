@@ -104,7 +104,8 @@ private:
     solidSurface surface_;
     List<tensor> F_;
     List<vec4> springForce_;
-    List<scalar> q_;  // sources of the step [1/s]
+    List<scalar> q_;      // sources of the step [1/s]
+    List<scalar> ahead_;  // J that the first step of DLN makes good in advance, else empty [1]
     blockMatrix3 K_;
 };
 
@@ -137,9 +138,10 @@ couplingScheme::stepLimit monolithic::limit() const
 void monolithic::structureState()
 {
     if (!c_.structure) return;
+    const List<vec4> x = time_.elasticStart(c_.cloud);
     c_.structure->deformationGradient(c_.cloud.x, F_);
-    c_.structure->force(c_.cloud.x, springForce_);
-    c_.structure->assembleTangent(c_.cloud.x, tangentKind::positive, K_);
+    c_.structure->force(x, springForce_);
+    c_.structure->assembleTangent(x, tangentKind::positive, K_);
     const List<isometry>& images = c_.structure->reference().images;
     surface_.initialise(c_.cloud, c_.list, F_, images);
     volume_->setup(F_);
@@ -208,16 +210,24 @@ void monolithic::account(scalar dt)
         book(solidFeedback, dt, [&](label i) { return feedback(i, dt); });
         book(solidDefect, dt, [&](label i) { return missed(i, dt); });
         List<scalar> missed;
-        volume_->overStep(c_.cloud.Up, dt, cofactor, missed);
+        // midway the cofactors are the step's mean already
+        volume_->overStep(c_.cloud.Up, time_.midway() ? 0 : dt, cofactor, missed);
+        for (size_t i = 0; i < ahead_.size(); ++i) missed[i] -= ahead_[i];
         std::copy(missed.begin(), missed.end(), c_.cloud.scalars.at(missedField).begin());
     }
     system_.enclosed().account(c_.cloud, dt, cofactor);
 }
 
-// div u is to be zero where the particles will be
+// div u is to be zero where the particles will be, and J one
 void monolithic::addWay(scalar dt)
 {
     particleCloud& cloud = c_.cloud;
+    if (c_.structure)
+    {
+        List<tensor> mean;
+        volume_->overStep(cloud.Up, dt, mean, ahead_);
+        for (label i = 0; i < cloud.nSolid(); ++i) q_[i] -= ahead_[i] / dt;
+    }
     cloud.fillGhosts(cloud.Up, false);
     const List<scalar> loses = sphc::gradSquaredTrace({cloud, c_.list, c_.correction}, cloud.Up);
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
@@ -234,6 +244,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     for (label i = 0; i < cloud.nSolid(); ++i) q[i] = feedback(i, dt) + missed(i, dt);
     for (label i = cloud.nSolid(); i < cloud.n() && !c_.source.empty(); ++i)
         q[i] = c_.source[cloud.zone[i]];
+    ahead_.clear();
     if (time_.wellStarts()) addWay(dt);
     if (c_.structure) system_.setup(time_.tau(), volume_.get(), &surface_, &K_);
     else system_.setup(time_.tau(), nullptr, nullptr, nullptr);
@@ -293,7 +304,7 @@ word monolithic::attempt(scalar t, scalar dt)
     time_.start(cloud, t, dt);
     c_.updateNeighbours(time_.times());
     system_.setStep(t, t + dt);
-    energy_.begin();
+    energy_.begin(time_.startPlaces(cloud));
     structureState();
     system_.hydrostatic().take(cloud);
     time_.begin(cloud);

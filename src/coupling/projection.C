@@ -196,7 +196,7 @@ word projection::attempt(scalar t, scalar dt)
     c_.updateNeighbours(time_.times(), fractionalStep::behind(cloud));
     hydrostatic_.setStep(t, t + dt);
     slope_ = c_.walls->pressureSlope();
-    energy_.begin();
+    energy_.begin(time_.startPlaces(cloud));
     const stencil s{cloud, c_.list, c_.correction};
     const word fails = atTime(t + dt, [&]() -> word {
         try

@@ -25,8 +25,11 @@ const vec4* fieldOf(const particleCloud& cloud, const word& name)
 timeScheme::timeScheme(const fsiCase& c)
     : c_(c), DLN_(c.schemes.chooseOrDefault("ddtScheme", {"Euler", "DLN"}, "Euler") == "DLN")
 {
-    if (DLN_ && c.structure)
-        c.schemes.fail("ddtScheme", "DLN is for fluid alone; with a structure take Euler");
+    if (DLN_ && c.structure && c.coupling != "monolithic")
+        c.schemes.fail(
+            "ddtScheme",
+            "Coupling projection takes springs explicitly, DLN does not: with a structure "
+            "take Euler, or coupling monolithic");
     keeps_ = DLN_;
 }
 
@@ -61,6 +64,27 @@ void timeScheme::start(particleCloud& cloud, scalar t, scalar dt)
     way.assign(cloud.n(), vec4{});
     for (label i = 0; i < cloud.n(); ++i)
         way[i] = vec4::from(to_ * cloud.Up[i].xyz()), cloud.x[i].s += way[i].s;
+}
+
+List<vec4> timeScheme::startPlaces(const particleCloud& cloud) const
+{
+    List<vec4> x(cloud.x.begin(), cloud.x.begin() + cloud.n());
+    if (const vec4* ahead = to_ > 0 ? fieldOf(cloud, aheadOfStep) : nullptr)
+        for (label i = 0; i < cloud.n(); ++i) x[i].s -= ahead[i].s;
+    return x;
+}
+
+// x^{n-1} = x^n - dt^{n-1} w with the mean velocity w of the last step
+List<vec4> timeScheme::elasticStart(const particleCloud& cloud) const
+{
+    List<vec4> x = startPlaces(cloud);
+    x.resize(cloud.nSolid());
+    if (!(to_ > 0)) return x;
+    const vec4* way = fieldOf(cloud, lastWay);
+    const scalar ofBefore = b0_ - b2_ / a2_ * a0_;
+    for (label i = 0; i < cloud.nSolid(); ++i)
+        x[i].s -= ofBefore * before_ * vec4::from(way[i].xyz()).s;
+    return x;
 }
 
 stepTimes timeScheme::times() const
