@@ -33,6 +33,7 @@ continued piston fluidSecondOrderMonolithic 'echo "ddtScheme DLN;" >> system/sph
     setEntry system/sphSolution coupling monolithic'
 continued piston fluidMonolithic 'setEntry system/sphSolution coupling monolithic'
 continued membrane wallMonolithic
+continued membrane wallSecondOrder 'echo "ddtScheme DLN;" >> system/sphSchemes'
 continued membrane wallProjection "$explicitWall; $adjusted"
 
 # Killed while it writes every step; what is left of a folder does not matter

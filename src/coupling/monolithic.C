@@ -103,7 +103,7 @@ private:
     std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
     List<tensor> F_;
-    List<vec4> springForce_;
+    List<vec4> springsAt_, springForce_;
     List<scalar> q_;      // sources of the step [1/s]
     List<scalar> ahead_;  // J that the first step of DLN makes good in advance, else empty [1]
     blockMatrix3 K_;
@@ -138,10 +138,10 @@ couplingScheme::stepLimit monolithic::limit() const
 void monolithic::structureState()
 {
     if (!c_.structure) return;
-    const List<vec4> x = time_.elasticStart(c_.cloud);
+    springsAt_ = time_.elasticStart(c_.cloud);
     c_.structure->deformationGradient(c_.cloud.x, F_);
-    c_.structure->force(x, springForce_);
-    c_.structure->assembleTangent(x, tangentKind::positive, K_);
+    c_.structure->force(springsAt_, springForce_);
+    c_.structure->assembleTangent(springsAt_, tangentKind::positive, K_);
     const List<isometry>& images = c_.structure->reference().images;
     surface_.initialise(c_.cloud, c_.list, F_, images);
     volume_->setup(F_);
@@ -252,7 +252,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
         density_.addTo(q, system_.rows().pair(),
                        drainedFluid(cloud, c_.list, system_.enclosed().bodyOf()), dt);
     system_.enclosed().addDefect(q);
-    preconditioner_.setup();
+    preconditioner_.setup(springsAt_);
     system_.rightHandSide(theta_, springForce_, q, b);
 
     z = guess();

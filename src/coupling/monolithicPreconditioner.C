@@ -27,7 +27,7 @@ monolithicPreconditioner::monolithicPreconditioner(const coupledSystem& system,
     options_.read(dict.subOrEmptyDict("multigrid"));
 }
 
-void monolithicPreconditioner::setup()
+void monolithicPreconditioner::setup(const List<vec4>& springsAt)
 {
     const fsiCase& c = system_.fsi();
     const particleCloud& cloud = c.cloud;
@@ -36,7 +36,7 @@ void monolithicPreconditioner::setup()
         for (label i = 0; i < cloud.nSolid(); ++i)
             bulk_[i] += beta_ * c.structure->shearModulus() * system_.dt();
     if (system_.tangent())
-        solid_.setup(*system_.tangent(), system_.dt(), system_.diagonal(), cloud,
+        solid_.setup(*system_.tangent(), system_.dt(), system_.diagonal(), cloud, springsAt,
                      c.kernel->support());
 
     buildLaplacian();

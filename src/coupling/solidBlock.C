@@ -31,7 +31,7 @@ void solidBlock::assemble(const blockMatrix3& K, scalar dt, const List<scalar>& 
 }
 
 void solidBlock::setup(const blockMatrix3& K, scalar dt, const List<scalar>& A,
-                       const particleCloud& cloud, scalar cellSize)
+                       const particleCloud& cloud, const List<vec4>& at, scalar cellSize)
 {
     assemble(K, dt, A, cloud);
     if (solver_ == "direct")
@@ -41,7 +41,7 @@ void solidBlock::setup(const blockMatrix3& K, scalar dt, const List<scalar>& A,
             direct_.factorise(As_);
             made_ = {dt};
             for (label i = 0; i < K.size(); ++i)
-                made_.insert(made_.end(), {cloud.x[i][0], cloud.x[i][1], cloud.x[i][2], A[i]});
+                made_.insert(made_.end(), {at[i][0], at[i][1], at[i][2], A[i]});
         }
         age_ = (age_ + 1) % refactorInterval_;
         return;
