@@ -32,6 +32,7 @@ approach approachOf(const particleCloud& cloud, label i, label j, scalar closest
 {
     const vector d = cloud.x[i].xyz() - cloud.x[j].xyz();
     const scalar r = d.norm(), room = std::max(r - closest, scalar(0));
+    if (r == 0) return {0, vector::Zero()};  // no line between them
     const vector n = d / r;
     return {-room / dt - n.dot(cloud.Up[i].xyz() - velocityOf(cloud, j)), n};
 }

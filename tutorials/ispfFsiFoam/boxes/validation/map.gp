@@ -33,6 +33,6 @@ do for [k=0:words-1] {
     eval sprintf("set object %d rectangle from 0, %g to 0.8, %g fillcolor rgb colour%d fillstyle solid noborder", k + 1, words + 1.1 - k, words + 1.9 - k, k)
     eval sprintf("set label %d word%d at 1.1, %g", k + 1, k, words + 1.5 - k)
 }
-set label 90 "closest pair [dx], asked for up to CFL 0.2; below it what\nenergy was gained, of that at the start, if more than 1e-6" at 0, 0.9
+set label 90 "closest pair [dx], 0.3 at least; below it what\nenergy was gained, of that at the start, if more than 1e-6" at 0, 0.9
 plot NaN notitle
 unset multiplot
