@@ -245,7 +245,7 @@ void fractionalStep::solvePressure(particleCloud& cloud, const List<scalar>& f, 
     for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] = p_[i] + level;
 }
 
-// Of the velocities that are booked
+// bookPressure has left the divergence of the velocities at the end of the step in div_
 void fractionalStep::printContinuityErrors(particleCloud& cloud, const List<scalar>& q, scalar dt)
 {
     for (label i = 0; i < cloud.n(); ++i) div_[i] -= q.empty() ? 0 : q[i];

@@ -21,7 +21,7 @@ vector velocityOf(const particleCloud& cloud, label j)
            cloud.ghostOffset(j).xyz();
 }
 
-// What i has to gain against j along n for (8.35), positive if the pair comes too near, and n
+// n points from j to i.  The velocity of i against j along n lacks this much for (8.35): positive if the pair comes too near
 struct approach
 {
     scalar lacks;

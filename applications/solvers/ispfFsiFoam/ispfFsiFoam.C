@@ -47,7 +47,7 @@ bool isUnresolved(const fsiCase& c)
             ", above " + str(mostCellReynolds) +
             ": viscosity does not damp eddies of a few dx, the stabiliser and the step do (see the "
             "energy ledger). "
-            "Refine, or take the flow's details as told by them");
+            "Refine to resolve them");
     return true;
 }
 
