@@ -204,7 +204,7 @@ awk '!/^#/ { all = $2 + $3 + $7; work = $8; share = $3/all } END { exit !(share 
 # Poiseuille's flow from inlet to outlet: 12 mu U L/H^2 over U H of power comes in, and goes into friction, which 16
 # particles across overrate by 6 % (32: 2 %)
 mkdir -p ../through/{system,constant}; cd ../through || exit 1
-echo 'dx 6.25e-3; nDims 2; zones { water { phase fluid; shape box; min (0 0 0); max (0.3 0.1 0);
+echo 'dx 5e-3; nDims 2; zones { water { phase fluid; shape box; min (0 0 0); max (0.3 0.1 0);
     U ("6*y*(0.1 - y)" 0 0); p "2.4*(0.3 - x)"; } }
 patches { in { box ((-1 -1 -1) (0.001 1 1)); } out { box ((0.299 -1 -1) (1 1 1)); } }' > system/particleDict
 echo 'in { type open; flowRate 1e-3; profile parabolic; } out { type open; p 0; backflow 0; } walls { type wall; }' > constant/boundary

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "couplingScheme.H"
 
+#include "approachLimit.H"
 #include "shiftingFrame.H"
 #include "stepReport.H"
 
@@ -113,8 +114,21 @@ void couplingScheme::shift(const particleShifting& shifting, scalar dt)
     energy_.shifts([&] {
         shifting.shift(c_.cloud, c_.list, c_.correction, dt, energy_.heated(),
                        [&](label i) { return c_.walls->nearOpen(i); });
-        if (const scalar gap = 0.5 * shifting.closest(); gap > 0)
-            c_.walls->limitApproach(c_.cloud, gap * c_.cloud.dx, dt);
+        toSolid_.clear();
+        const scalar closest = shifting.on() ? shifting.closest() * c_.cloud.dx : 0;
+        if (closest > 0)
+        {
+            limitApproach(c_.cloud, c_.list, closest, dt, toSolid_);
+            c_.walls->limitApproach(c_.cloud, 0.5 * closest, dt);
+        }
+    });
+}
+
+void couplingScheme::move(const timeScheme& time, bool mean)
+{
+    time.move(c_.cloud, mean);
+    energy_.shifts([&] {
+        for (size_t i = 0; i < toSolid_.size(); ++i) c_.cloud.Up[i].s += toSolid_[i].s;
     });
 }
 

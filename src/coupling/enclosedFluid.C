@@ -15,18 +15,6 @@ namespace
 // left is the difference of two surface sums
 constexpr scalar balanced = 0.3;
 
-constexpr scalar largestShare = 0.2;  // of the fluxes: 0.01 is usual
-// Of what would pass the surface at the largest speed: fluid that is stirred within misses 0.002 of it, with no flux
-constexpr scalar stirredShare = 0.01;
-
-// Where walls carry solids along, their surface ends at the wall: what it sweeps there is not known
-bool clampedMove(const particleCloud& cloud)
-{
-    for (label i = 0; i < cloud.nSolid(); ++i)
-        if (cloud.uFixed[i] && !cloud.Up[i].xyz().isZero(0)) return true;
-    return false;
-}
-
 }  // namespace
 
 void enclosedFluid::setup(const solidGradient& gradientOf, const solidSurface* surface)
@@ -49,17 +37,15 @@ void enclosedFluid::setup(const solidGradient& gradientOf, const solidSurface* s
         {
             if (rootOf[z] != r) continue;
             b.zones.push_back(z), b.isZone[z] = 1, b.n += count[z];
-            b.pushed += swept.net[z], b.gross += swept.gross[z];
             bodyOf_[z] = label(bodies_.size());
         }
         if (b.n > 0) bodies_.push_back(std::move(b));
     }
-    const bool moved = clampedMove(cloud);
     scalar wetted = 0;
     for (body& b : bodies_)
     {
         const scalar area = surface_ ? surface_->area(b.isZone) : 0;
-        b.free = area == 0, b.known = !std::isnan(b.pushed) && !moved, wetted += area;
+        b.free = area == 0, wetted += area;
         if (b.free) refusePush(c_, swept, b.zones);
     }
     allFree_ = wetted > 0 && loadsItself(gradientOf, wetted);
@@ -82,8 +68,7 @@ bool enclosedFluid::loadsItself(const solidGradient& gradientOf, scalar area) co
 bool enclosedFluid::inactive() const
 {
     return !makesGood_ || allFree_ ||
-           std::none_of(bodies_.begin(), bodies_.end(),
-                        [](const body& b) { return !b.free && b.known; });
+           std::all_of(bodies_.begin(), bodies_.end(), [](const body& b) { return b.free; });
 }
 
 void enclosedFluid::addDefect(List<scalar>& q)
@@ -92,77 +77,47 @@ void enclosedFluid::addDefect(List<scalar>& q)
     const particleCloud& cloud = c_.cloud;
     const state s(cloud);
     const auto bodyOf = [&](label i) { return bodyOf_[cloud.zone[i]]; };
+    const scalar V = cloud.volume();
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-    {
-        if (bodyOf(i) < 0) continue;
-        body& b = bodies_[bodyOf(i)];
-        const scalar V = cloud.volume();
-        b.volume += V, b.added += s.defect[cloud.zone[i]] * V, b.source += q[i] * V;
-    }
-    for (body& b : bodies_) b.added = b.free || !b.known ? 0 : b.added, b.source += b.added;
+        if (bodyOf(i) >= 0)
+        {
+            body& b = bodies_[bodyOf(i)];
+            b.volume += V, b.added += b.free ? 0 : s.defect[cloud.zone[i]] * V;
+        }
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
         if (bodyOf(i) >= 0) q[i] += bodies_[bodyOf(i)].added / bodies_[bodyOf(i)].volume;
 }
 
-void enclosedFluid::account(particleCloud& cloud, scalar dt, const List<tensor>& cofactor) const
+void enclosedFluid::account(particleCloud& cloud, scalar dt, const List<tensor>& dF,
+                            scalar way) const
 {
-    if (inactive())
-    {
-        if (cloud.history.count(divergenceDefect)) state(cloud).clear().write(cloud);
-        return;
-    }
-    state s = state(cloud).clear();
+    if (inactive() && !cloud.history.count(divergenceDefect)) return;
+    state s(cloud);
+    std::fill(s.defect.begin(), s.defect.end(), 0);
     for (const body& b : bodies_)
     {
+        if (inactive() || b.free) continue;
         s.booked += b.added * dt;
-        if (!b.free && b.known) expectNext(b, cofactor, s);
+        const auto flux = [&](scalar over) { return surface_->flux(cloud.Up, dF, over, b.isZone); };
+        const scalar defect = flux(0) - flux(way);
+        for (const label z : b.zones) s.defect[z] = defect / b.volume;
     }
     s.write(cloud);
 }
 
-void enclosedFluid::expectNext(const body& b, const List<tensor>& cofactor, state& s) const
-{
-    const scalar gives = surface_->flux(c_.cloud.Up, cofactor, b.isZone);
-    scalar defect = b.source - (gives - b.pushed);
-    // when all is at rest again what still flows inside may miss more than what then passes
-    s.largest = std::max(s.largest, std::abs(gives) + b.gross + std::abs(b.source - b.added));
-    const scalar speed = std::max(c_.cloud.maxSpeed(), c_.walls->maxGivenSpeed());
-    const scalar most =
-        std::max(largestShare * s.largest, stirredShare * speed * surface_->area(b.isZone));
-    if (std::abs(defect) > most)
-    {
-        warning("time " + c_.time.timeName() + " s: zone " + c_.cloud.zones[b.zones.front()].name +
-                ": its walls push " + str(b.pushed) + ", the solid gives way by " + str(gives) +
-                " and its divergence says " + str(b.source) + " m^" +
-                std::to_string(c_.cloud.nDims) + "/s. Does its fluid fill what encloses it?");
-        defect = std::clamp(defect, -most, most);
-    }
-    for (const label z : b.zones) s.defect[z] = defect / b.volume;
-}
-
-enclosedFluid::state::state(const particleCloud& cloud)
-    : defect(cloud.zones.size(), 0)
+enclosedFluid::state::state(const particleCloud& cloud) : defect(cloud.zones.size(), 0)
 {
     const auto found = cloud.history.find(divergenceDefect);
     const size_t nz = defect.size();
-    if (found == cloud.history.end() || found->second.size() != nz + 2) return;
-    const scalar* from = found->second.data();
-    std::copy_n(from, nz, defect.begin());
-    largest = from[nz], booked = from[nz + 1];
-}
-
-// The defects of this step come anew
-enclosedFluid::state enclosedFluid::state::clear()
-{
-    std::fill(defect.begin(), defect.end(), 0);
-    return *this;
+    if (found == cloud.history.end() || found->second.size() != nz + 1) return;
+    std::copy_n(found->second.data(), nz, defect.begin());
+    booked = found->second[nz];
 }
 
 void enclosedFluid::state::write(particleCloud& cloud) const
 {
     List<scalar>& to = cloud.history[divergenceDefect];
-    to = defect;
-    to.push_back(largest), to.push_back(booked);
+    to = defect, to.push_back(booked);
 }
 
 // Of the n particles that count(i) is true for

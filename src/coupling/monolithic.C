@@ -8,8 +8,8 @@
 //         maxIter     150;
 //         theta       0.95;     // memory of the pressure stabiliser; fluid alone: 0, it moves on
 //         volumeFeedback 0.1;   // relaxes J - 1 of the solid, per step; booked by the volume ledger
-//         divergenceDefect yes; // what the divergence misses is made good a step later: of the fluid's flux,
-//                               // enclosedFluid.H; of the solid's volume as it turns, volumeConstraint.H
+//         divergenceDefect yes; // what rates miss over a step is made good in the next: of the area of the surface,
+//                               // enclosedFluid.H; of the volume of a solid that turns, volumeConstraint.H
 //         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
 //     }
 //     shifting { ... }     densityFeedback 0;
@@ -56,7 +56,8 @@ public:
           maxIter_(dict_.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
           time_(c),
           makesGood_(dict_.getOrDefault("divergenceDefect", true)),
-          shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c)),
+          shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c),
+                    shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx)),
           density_(c.solution, c.cloud)
     {
         time_.keepLevels();
@@ -204,18 +205,20 @@ void monolithic::accept(const List<scalar>& z)
 void monolithic::account(scalar dt)
 {
     density_.book(c_.cloud, dt);
-    List<tensor> cofactor;
+    List<tensor> dF;
     if (c_.structure)
     {
+        List<scalar> dJ;
+        volume_->rate(c_.cloud.Up, dJ, dF);
         book(solidFeedback, dt, [&](label i) { return feedback(i, dt); });
         book(solidDefect, dt, [&](label i) { return missed(i, dt); });
         List<scalar> missed;
-        // midway the cofactors are the step's mean already
-        volume_->overStep(c_.cloud.Up, time_.midway() ? 0 : dt, cofactor, missed);
+        volume_->overStep(c_.cloud.Up, time_.midway() ? 0 : dt, missed);
         for (size_t i = 0; i < ahead_.size(); ++i) missed[i] -= ahead_[i];
         std::copy(missed.begin(), missed.end(), c_.cloud.scalars.at(missedField).begin());
     }
-    system_.enclosed().account(c_.cloud, dt, cofactor);
+    // midway the geometry is the step's mean already
+    system_.enclosed().account(c_.cloud, dt, dF, time_.midway() ? 0 : dt);
 }
 
 // div u is to be zero where the particles will be, and J one
@@ -224,8 +227,7 @@ void monolithic::addWay(scalar dt)
     particleCloud& cloud = c_.cloud;
     if (c_.structure)
     {
-        List<tensor> mean;
-        volume_->overStep(cloud.Up, dt, mean, ahead_);
+        volume_->overStep(cloud.Up, dt, ahead_);
         for (label i = 0; i < cloud.nSolid(); ++i) q_[i] -= ahead_[i] / dt;
     }
     cloud.fillGhosts(cloud.Up, false);
@@ -323,7 +325,7 @@ word monolithic::attempt(scalar t, scalar dt)
     c_.followOpen(dt);
     // Shift first, with the neighbours at hand, then move
     shift(shifting_, dt);
-    time_.move(cloud);
+    move(time_);
     energy_.end();
     if (const word reason = gains(dt); !reason.empty()) return reason;
     energy_.book();

@@ -47,7 +47,8 @@ public:
           time_(c),
           limits_(c, explicit_, mean_, dict_.subOrEmptyDict("limits")),
           step_(c.rho, c.mu, explicit_ ? "explicit" : "implicit", c.solution, time_.secondOrder()),
-          shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c)),
+          shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c),
+                    shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx)),
           density_(c.solution, c.cloud),
           hydrostatic_(c)
     {
@@ -217,7 +218,7 @@ word projection::attempt(scalar t, scalar dt)
     c_.followOpen(dt);
     // shifted with the neighbours at hand, then moved
     shift(shifting_, dt);
-    time_.move(cloud, mean_);
+    move(time_, mean_);
     energy_.end();
     if (const word reason = gains(dt); !reason.empty()) return reason;
     energy_.book();

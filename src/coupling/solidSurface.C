@@ -3,6 +3,7 @@
 #include "followWeights.H"
 #include "imagedPoints.H"
 #include "surfaceCover.H"
+#include "volumeConstraint.H"
 
 #include <algorithm>
 #include <cmath>
@@ -123,8 +124,8 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
 void solidSurface::findFeet(const particleCloud& cloud, scalar support,
                             const List<isometry>& images)
 {
-    turn_ = {tensor::Identity()};
-    for (const isometry& m : images) turn_.push_back(m.R);
+    map_ = {isometry()};
+    map_.insert(map_.end(), images.begin(), images.end());
     const List<vec4>& x0 = cloud.vectors.at("x0");
     const scalar reach = std::max(3 * cloud.dx, support);
     List<vector> rest;
@@ -134,7 +135,7 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
     {
         const List<vec4>&A = cloud.vectors.at(areaField[s]), &e = cloud.vectors.at(wayField[s]);
         List<List<label>> near(cloud.nSolid());
-        List<List<scalar>> weight(cloud.nSolid());
+        List<List<vector>> slope(cloud.nSolid());
         parallelFor(
             cloud.nSolid(),
             [&](label begin, label end) {
@@ -146,8 +147,7 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
                     solids.grid.within(foot, reach, [&](label k, scalar) { near[i].push_back(k); });
                     std::sort(near[i].begin(), near[i].end());
                     for (const label k : near[i]) r.push_back((solids.grid[k] - foot) / reach);
-                    weight[i] = followWeights(r);
-                    if (weight[i].empty()) near[i] = {i}, weight[i] = {1};
+                    followWeights(r, &slope[i]);
                 }
             },
             16);
@@ -157,27 +157,39 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
         {
             for (const label k : near[i])
                 f.source.push_back(solids.source[k]), f.image.push_back(solids.image[k]);
-            f.weight.insert(f.weight.end(), weight[i].begin(), weight[i].end());
+            for (const vector& g : slope[i]) f.slope.push_back(g / reach);
             f.start.push_back(label(f.source.size()));
         }
     }
 }
 
-// On the surface: an inflated ring's layers are stretched the less the deeper they lie
-vector solidSurface::areaVector(int s, label i, const List<tensor>& cofactor) const
+// F on the surface, (5.2): an inflated ring's layers are stretched the less the deeper they lie, and F of the particles next
+// to it sees those behind them alone
+tensor solidSurface::gradientAtFoot(int s, label i) const
 {
     const feet& f = feet_[s];
-    tensor there = tensor::Zero();
+    const vector from = cloud_->x[i].xyz();
+    tensor F = vector(0, 0, cloud_->nDims == 2).asDiagonal();
     for (label k = f.start[i]; k < f.start[i + 1]; ++k)
-    {
-        const tensor& R = turn_[f.image[k]];
-        if (f.image[k] == 0) there += f.weight[k] * cofactor[f.source[k]];
-        else there += f.weight[k] * R * cofactor[f.source[k]] * R.transpose();
-    }
-    return there * cloud_->vectors.at(areaField[s])[i].xyz();
+        F += (map_[f.image[k]](cloud_->x[f.source[k]].xyz()) - from) * f.slope[k].transpose();
+    return F;
 }
 
-scalar solidSurface::flux(const List<vec4>& u, const List<tensor>& cofactor,
+tensor solidSurface::rateAtFoot(int s, label i, const List<vec4>& u) const
+{
+    const feet& f = feet_[s];
+    tensor rate = tensor::Zero();
+    for (label k = f.start[i]; k < f.start[i + 1]; ++k)
+        rate += map_[f.image[k]].R * u[f.source[k]].xyz() * f.slope[k].transpose();
+    return rate;
+}
+
+vector solidSurface::areaAtRest(int s, label i) const
+{
+    return cloud_->vectors.at(areaField[s])[i].xyz();
+}
+
+scalar solidSurface::flux(const List<vec4>& u, const List<tensor>& dF, scalar dt,
                           const List<char>& zones) const
 {
     return parallelSum(cloud_->nSolid(), [&](label begin, label end) {
@@ -185,15 +197,11 @@ scalar solidSurface::flux(const List<vec4>& u, const List<tensor>& cofactor,
         for (label i = begin; i < end; ++i)
             for (const int s : {0, 1})
             {
-                if (part_[s][i].side < 0 || !zones[part_[s][i].side]) continue;
-                vector at = vector::Zero();
-                // what is clamped moves as one up to its edge, whatever its neighbours' motion extrapolates to
-                const feet& f = feet_[s];
-                if (cloud_->uFixed[i]) at = u[i].xyz();
-                else
-                    for (label k = f.start[i]; k < f.start[i + 1]; ++k)
-                        at += f.weight[k] * (turn_[f.image[k]] * u[f.source[k]].xyz());
-                sum -= areaVector(s, i, cofactor).dot(at);
+                const sided& part = part_[s][i];
+                if (part.side < 0 || !zones[part.side]) continue;
+                const tensor F = gradientAtFoot(s, i), change = dt * rateAtFoot(s, i, u);
+                sum -=
+                    (meanCofactor(F, change) * areaAtRest(s, i)).dot(u[i].xyz() + dF[i] * part.e0);
             }
         return sum;
     });
@@ -220,7 +228,7 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
         part = sided();
         part.side = int(S0[3]) - 1, part.e0 = cloud.vectors.at(wayField[s])[i].xyz();
         if (part.side < 0) continue;
-        part.S = areaVector(s, i, cofactor);
+        part.S = cofactorOf(gradientAtFoot(s, i)) * areaAtRest(s, i);
         // F = J (cof F)^-T, and det cof F = J^2
         part.e = std::sqrt(cofactor[i].determinant()) * cofactor[i].inverse().transpose() * part.e0;
         scalar sum = 0;
@@ -233,6 +241,7 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
             w[q] = kernel.W((cloud.x[i].xyz() - cloud.x[j].xyz()).norm());
             sum += w[q];
         }
+        if (sum == 0) part.side = -1;  // it sees no fluid: no load, no flux
         for (label q = 0; q < m && sum > 0; ++q) w[q] /= sum;
     }
 }

@@ -17,11 +17,11 @@ using row = Eigen::RowVectorXd;
 // layer), quadratic modes that would amplify noise (two layers)
 constexpr scalar linearCut = 1e-6, quadraticCut = 0.02;
 
-// The columns as functions of the particles, and their values at the point itself
+// The columns as functions of the particles; their values, and below them their three derivatives, at the point itself
 struct basis
 {
     matrix columns;
-    row atPoint;
+    matrix atPoint;
 
     void removeFrom(basis& other) const
     {
@@ -46,15 +46,16 @@ basis orthonormal(const basis& b, scalar cut, scalar greatest)
 
 }  // namespace
 
-List<scalar> followWeights(const List<vector>& r)
+List<scalar> followWeights(const List<vector>& r, List<vector>* slopes)
 {
     const Eigen::Index n = Eigen::Index(r.size());
     Eigen::VectorXd root(n);  // of the fit's weight
     for (Eigen::Index j = 0; j < n; ++j) root[j] = std::max(0.0, 1 - r[j].norm());
     if (!(root.norm() > 0)) return {};
 
-    basis one{root, row::Ones(1)}, linear{matrix(n, 3), row::Zero(3)};
-    basis quadratic{matrix(n, 6), row::Zero(6)};
+    basis one{root, matrix::Zero(4, 1)}, linear{matrix(n, 3), matrix::Zero(4, 3)};
+    basis quadratic{matrix(n, 6), matrix::Zero(4, 6)};
+    one.atPoint(0) = 1, linear.atPoint.bottomRows(3).setIdentity();
     for (Eigen::Index j = 0; j < n; ++j)
     {
         const vector& x = r[j];
@@ -71,10 +72,11 @@ List<scalar> followWeights(const List<vector>& r)
     linear.removeFrom(quadratic);
     quadratic = orthonormal(quadratic, quadraticCut, scale);
 
-    Eigen::VectorXd w = one.columns * one.atPoint.transpose() +
-                        linear.columns * linear.atPoint.transpose() +
-                        quadratic.columns * quadratic.atPoint.transpose();
-    w.array() *= root.array();
+    matrix w = one.columns * one.atPoint.transpose() + linear.columns * linear.atPoint.transpose() +
+               quadratic.columns * quadratic.atPoint.transpose();
+    w.array().colwise() *= root.array();
+    if (slopes)
+        for (Eigen::Index j = 0; j < n; ++j) slopes->push_back(w.row(j).tail(3).transpose());
     return List<scalar>(w.data(), w.data() + n);
 }
 

@@ -5,7 +5,7 @@
 namespace ispf
 {
 
-static tensor cofactorOf(const tensor& F)
+tensor cofactorOf(const tensor& F)
 {
     return F.determinant() * F.inverse().transpose();
 }
@@ -30,21 +30,22 @@ void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ, List<tensor>&
 }
 
 // F is linear and its cofactor at most quadratic in time, for which Simpson's rule is exact
-void volumeConstraint::overStep(const List<vec4>& u, scalar dt, List<tensor>& mean,
-                                List<scalar>& missed) const
+tensor meanCofactor(const tensor& F, const tensor& change)
+{
+    return (cofactorOf(F) + 4 * cofactorOf(F + 0.5 * change) + cofactorOf(F + change)) / 6;
+}
+
+void volumeConstraint::overStep(const List<vec4>& u, scalar dt, List<scalar>& missed) const
 {
     gradient_.applyLinear(u, work_);
-    mean.resize(work_.size()), missed.resize(work_.size());
+    missed.resize(work_.size());
     parallelFor(
         label(work_.size()),
         [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
             {
                 const tensor change = dt * work_[i];
-                mean[i] = (cofactor_[i] + 4 * cofactorOf(F_[i] + 0.5 * change) +
-                           cofactorOf(F_[i] + change)) /
-                          6;
-                missed[i] = (mean[i] - cofactor_[i]).cwiseProduct(change).sum();
+                missed[i] = (meanCofactor(F_[i], change) - cofactor_[i]).cwiseProduct(change).sum();
             }
         },
         256);

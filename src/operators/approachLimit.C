@@ -39,8 +39,10 @@ approach approachOf(const particleCloud& cloud, label i, label j, scalar closest
 
 }  // namespace
 
-label limitApproach(particleCloud& cloud, const neighbourList& list, scalar closest, scalar dt)
+label limitApproach(particleCloud& cloud, const neighbourList& list, scalar closest, scalar dt,
+                    List<vec4>& toSolid)
 {
+    toSolid.assign(cloud.nSolid(), vec4{});
     const label first = cloud.nSolid(), nFluid = cloud.n() - first;
     List<char> meets(nFluid, 0);
     label exchanges = 0;
@@ -70,13 +72,14 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
             {
                 const label j = list.index[m], owner = cloud.ownerOf(j);
                 const auto [lacks, n] = approachOf(cloud, i, j, closest, dt);
-                const int free = !cloud.uFixed[i] + !cloud.uFixed[owner];
+                const bool isSolid = owner < first;
+                const int free = !cloud.uFixed[i] + (!isSolid && !cloud.uFixed[owner]);
                 if (!(lacks > 0) || free == 0) continue;
                 const vector change = lacks / free * n;
                 if (!cloud.uFixed[i]) cloud.Up[i].s += vec4::from(change).s;
                 // an image of i itself goes with it
                 if (owner != i && !cloud.uFixed[owner])
-                    cloud.Up[owner].s -=
+                    (isSolid ? toSolid[owner] : cloud.Up[owner]).s -=
                         vec4::from(j < cloud.n() ? change
                                                  : vector(cloud.ruleOf(j).R.transpose() * change))
                             .s;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace ispf
 {
@@ -166,9 +167,8 @@ public:
     }
 
     // A particle with few neighbours keeps a bounded correction; with next to none it is not closed
-    void start(const List<tensor>& M, const List<vec4>& psi)
+    void start(const List<tensor>& M)
     {
-        const label known = label(psi.size());
         forMedium([&](label i) {
             const tensor& one = within_.one[i];
             tensor own = (tensor::Identity() - M[i]) * one;
@@ -182,14 +182,8 @@ public:
                 }
             B_[i] = columns::of(own);
             closed_[i] = !cloud_.beyondOpen(i) && !(poor_[i] && alone(i));
-            if ((closed_[i] || cloud_.stripOf(i) > 0) && i < known) psi_[i] = psi[i];
         });
-        for (const strip& s : strips_)
-        {
-            const simd4 mean = total(s, psi_) / scalar(std::max<size_t>(1, s.members.size()));
-            for (const label i : s.members) psi_[i].s = mean;
-        }
-        takeInside(), fillB(), fill(psi_);
+        takeInside(), fillB();
     }
 
     // The support of a strip ends: it has the correction of the fluid before the face
@@ -220,20 +214,37 @@ public:
         return sum < least * cloud_.nDims;
     }
 
-    void sweep(const List<tensor>& M)
+    void sweep(const List<tensor>& M, scalar relaxation)
     {
         const tensor one = vector(1, 1, cloud_.nDims == 2 ? 0 : 1).asDiagonal();
         List<columns> moment(cloud_.n());
         forRanges([&](label i, label end) { momentRange(sight(), i, end, moment.data()); });
         forMedium([&](label i) {
             if (poor_[i] || inStrip_[i]) return;
-            const columns change = columns::of((one - moment[i].matrix() - M[i]) * within_.one[i]);
+            const columns change =
+                columns::of(relaxation * (one - moment[i].matrix() - M[i]) * within_.one[i]);
             for (int a = 0; a < 3; ++a) B_[i].c[a] += change.c[a];
         });
         takeInside(), fillB();
     }
 
-    // psi of (2.4) and (4.10), by conjugate gradients; the diagonal and the Laplacian over blocks precondition them
+    // psi of the step before, where it is known.  Not before the first sweep: B shall depend on where particles are
+    void takePsi(const List<vec4>& psi)
+    {
+        const label known = label(psi.size());
+        forMedium([&](label i) {
+            if ((closed_[i] || cloud_.stripOf(i) > 0) && i < known) psi_[i] = psi[i];
+        });
+        for (const strip& s : strips_)
+        {
+            const simd4 mean = total(s, psi_) / scalar(std::max<size_t>(1, s.members.size()));
+            for (const label i : s.members) psi_[i].s = mean;
+        }
+        fill(psi_);
+    }
+
+    // psi of (2.4) and (4.10), by conjugate gradients from the one that is there; the diagonal and the Laplacian over
+    // blocks precondition them
     void close(const List<vec4>& b, scalar tolerance, faceVectors::closure& result)
     {
         constexpr int most = 200;
@@ -242,7 +253,8 @@ public:
         result.poor = label(std::count(poor_.begin(), poor_.end(), 1));
         const label nClosed = label(std::count(closed_.begin(), closed_.end(), 1));
         if (nClosed == 0) return;
-        const List<scalar> diagonal = graphDiagonal();
+        if (!blocks_) prepare();
+        const List<scalar>& diagonal = diagonal_;
         forRanges([&](label i, label end) { openRange(sight(), b.data(), i, end, r.data()); });
         forMedium([&](label i) { r[i].s *= -inSpace; });
         const view v = sight();
@@ -255,13 +267,8 @@ public:
         forMedium([&](label i) { r[i].s -= holds(i) * psi_[i].s; });
         // areas of a boundary that do not add up have no cell to go to; in a body with an open face they go beyond it
         keepFree(r), removeMeans(r, [&](label body) { return !drains_[body]; });
-        List<scalar> ofBlock(n);
-        forMedium([&](label i) {
-            ofBlock[i] = (closed_[i] ? regular : stripLevel) * weight_[i] * diagonal[i];
-        });
-        const blockLaplacian blocks({cloud_, list_, within_, bodies_, closed_, inStrip_}, ofBlock);
         const auto precondition = [&] {
-            blocks.solve(r, weight_, z);
+            blocks_->solve(r, weight_, z);
             forMedium([&](label i) { z[i].s += r[i].s / diagonal[i]; });
             keepFree(z);
         };
@@ -297,7 +304,7 @@ public:
         }
         // what is left shall have no sum over any block.  Planes askew to the axes are not exact in blockLaplacian
         const tensor free = cloud_.freeDirections();
-        blocks.solve(r, weight_, z);
+        blocks_->solve(r, weight_, z);
         forMedium([&](label i) { psi_[i].s += vec4::from(free * z[i].xyz()).s; });
         fill(psi_);
     }
@@ -450,6 +457,17 @@ private:
         return diagonal;
     }
 
+    void prepare()
+    {
+        diagonal_ = graphDiagonal();
+        List<scalar> ofBlock(cloud_.n());
+        forMedium([&](label i) {
+            ofBlock[i] = (closed_[i] ? regular : stripLevel) * weight_[i] * diagonal_[i];
+        });
+        blocks_ = std::make_unique<blockLaplacian>(
+            blockLaplacian::graph{cloud_, list_, within_, bodies_, closed_, inStrip_}, ofBlock);
+    }
+
     view sight() const
     {
         return {list_.start.data(), within_.end->data(), list_.index.data(), list_.F.data(),
@@ -505,6 +523,8 @@ private:
         weight_;  // weight_: of a particle in a sum, one for all members of a strip
     List<strip> strips_;
     connectedBodies bodies_;
+    List<scalar> diagonal_;  // of the graph Laplacian
+    std::unique_ptr<blockLaplacian> blocks_;
     List<char> drains_;  // per body: an open face does
 };
 
@@ -514,13 +534,21 @@ faceVectors::closure faceVectors::build(const particleCloud& cloud, const neighb
                                         const medium& within, const List<vec4>& b,
                                         const List<tensor>& M, List<vec4>& psi, scalar tolerance)
 {
-    constexpr int sweeps = 3;  // doc/constants.md
+    // How often B and psi are fitted; the least eigenvalue that the sweeps' relaxation is made for; what may be left open
+    // until the last time, over the tolerance (doc/constants.md)
+    constexpr int fits = 3;
+    constexpr scalar least = 0.4, loosely = 100;
     closure result;
     builder faces(cloud, list, within);
-    faces.start(M, psi);
-    for (int k = 0; k < sweeps; ++k) faces.sweep(M);
-    faces.shorten();
-    faces.close(b, tolerance, result);
+    faces.start(M);
+    for (int k = 1; k <= fits; ++k)
+    {
+        faces.sweep(
+            M, 2 / (1 + least + (1 - least) * std::cos(M_PI * (k - 0.5) / fits)));  // Chebyshev's
+        if (k == 1) faces.takePsi(psi);
+        if (k == fits) faces.shorten();
+        faces.close(b, k == fits ? tolerance : loosely * tolerance, result);
+    }
     faces.write(b, *this, psi, result);
     return result;
 }

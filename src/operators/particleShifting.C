@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "particleShifting.H"
 
-#include "approachLimit.H"
-
 #include <algorithm>
 #include <cmath>
 
@@ -42,7 +40,9 @@ ISPF_INLINE vector slopeOfSum(const particleCloud& cloud, const neighbourList& l
 
 }  // namespace
 
-particleShifting::particleShifting(const dictionary& dict, const word& frame)
+particleShifting::particleShifting(const dictionary& dict, const word& frame,
+                                   const shiftStiffness& stiffness)
+    : stiffness_(stiffness)
 {
     if (dict.chooseOrDefault("type", {"Xu", "none"}, "Xu") == "none") return;
     constant_ = dict.getInRangeOrDefault("constant", 0, 1, 0.2);
@@ -155,8 +155,10 @@ scalar particleShifting::shift(particleCloud& cloud, const neighbourList& list,
 {
     const scalar way = speed(cloud) * dt, dx = cloud.dx, most = maxShift_ * dx;
     if (!on() || !(way > 0)) return 0;
-    const scalar alpha = constant_ * way,
-                 beta = closing_ * dx * dx * std::min(way / (inFull * dx), scalar(1));
+    scalar alpha = constant_ * way,
+           beta = closing_ * dx * dx * std::min(way / (inFull * dx), scalar(1));
+    const scalar gain = alpha / dx * stiffness_.crowding + beta / (dx * dx) * stiffness_.closing;
+    if (constexpr scalar most = 2; gain > most) alpha *= most / gain, beta *= most / gain;
     cloud.fillGhosts(cloud.Up, false);
     const label first = cloud.nSolid(), nFluid = cloud.n() - first;
     List<vector> shifts(nFluid, vector::Zero()), v(nFluid, vector::Zero());
@@ -185,7 +187,6 @@ scalar particleShifting::shift(particleCloud& cloud, const neighbourList& list,
         cloud.x[first + k].s += vec4::from(shifts[k]).s;
         cloud.Up[first + k].s += t * vec4::from(v[k]).s;
     }
-    if (closest_ > 0) limitApproach(cloud, list, closest_ * dx, dt);
     return a * t + b * t * t;
 }
 

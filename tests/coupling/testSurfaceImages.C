@@ -44,13 +44,14 @@ TEST_CASE(
     neighbourList list;
     list.build(cloud, *kernel);
 
-    // weights of the extrapolation to the surface are exact for what is linear, with the images and without
-    const List<tensor> F(cloud.nSolid(), tensor::Identity());
+    // slopes at the surface are exact for what is linear, with the images and without
+    const List<tensor> F(cloud.nSolid(), tensor::Identity()),
+        dF(cloud.nSolid(), vector(2, -1, 0).asDiagonal());
     const auto flux = [&](const List<isometry>& images) {
         solidSurface surface;
         surface.initialise(cloud, list, F);
         surface.setup(cloud, list, *kernel, F, images);
-        return surface.flux(cloud.Up, F, {0, 1});
+        return surface.flux(cloud.Up, dF, 0.1, {0, 1});
     };
     const scalar alone = flux({});
     CHECK(std::abs(alone) > 0.1);

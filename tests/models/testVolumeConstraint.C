@@ -76,10 +76,10 @@ TEST_CASE("What the rate of J misses over a step, from the cofactor's mean: exac
     const deformed d;
     const List<vec4> u = noise(d.ref.n());
     const scalar dt = 0.1 * d.ref.dx;  // a tenth of a spacing
-    List<tensor> mean, F0, F1;
+    List<tensor> F0, F1;
     List<scalar> rate, missed;
     d.volume.rate(u, rate);
-    d.volume.overStep(u, dt, mean, missed);
+    d.volume.overStep(u, dt, missed);
     List<vec4> x = d.x;
     for (size_t i = 0; i < x.size(); ++i) x[i].s += dt * simd4{u[i][0], u[i][1], u[i][2], 0};
     d.model->deformationGradient(d.x, F0);
