@@ -98,8 +98,7 @@ void enclosedFluid::account(particleCloud& cloud, scalar dt, const List<tensor>&
     {
         if (inactive() || b.free) continue;
         s.booked += b.added * dt;
-        const auto flux = [&](scalar over) { return surface_->flux(cloud.Up, dF, over, b.isZone); };
-        const scalar defect = flux(0) - flux(way);
+        const scalar defect = surface_->missed(cloud.Up, dF, way, b.isZone);
         for (const label z : b.zones) s.defect[z] = defect / b.volume;
     }
     s.write(cloud);

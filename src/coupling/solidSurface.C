@@ -135,6 +135,7 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
     {
         const List<vec4>&A = cloud.vectors.at(areaField[s]), &e = cloud.vectors.at(wayField[s]);
         List<List<label>> near(cloud.nSolid());
+        List<List<scalar>> weight(cloud.nSolid());
         List<List<vector>> slope(cloud.nSolid());
         parallelFor(
             cloud.nSolid(),
@@ -147,7 +148,7 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
                     solids.grid.within(foot, reach, [&](label k, scalar) { near[i].push_back(k); });
                     std::sort(near[i].begin(), near[i].end());
                     for (const label k : near[i]) r.push_back((solids.grid[k] - foot) / reach);
-                    followWeights(r, &slope[i]);
+                    weight[i] = followWeights(r, &slope[i]);
                 }
             },
             16);
@@ -157,6 +158,7 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
         {
             for (const label k : near[i])
                 f.source.push_back(solids.source[k]), f.image.push_back(solids.image[k]);
+            f.weight.insert(f.weight.end(), weight[i].begin(), weight[i].end());
             for (const vector& g : slope[i]) f.slope.push_back(g / reach);
             f.start.push_back(label(f.source.size()));
         }
@@ -189,8 +191,19 @@ vector solidSurface::areaAtRest(int s, label i) const
     return cloud_->vectors.at(areaField[s])[i].xyz();
 }
 
-scalar solidSurface::flux(const List<vec4>& u, const List<tensor>& dF, scalar dt,
-                          const List<char>& zones) const
+vector solidSurface::velocityAtFoot(int s, label i, const List<vec4>& u) const
+{
+    // what is clamped moves as one up to its edge, whatever its neighbours' motion extrapolates to
+    if (cloud_->uFixed[i]) return u[i].xyz();
+    const feet& f = feet_[s];
+    vector at = vector::Zero();
+    for (label k = f.start[i]; k < f.start[i + 1]; ++k)
+        at += f.weight[k] * (map_[f.image[k]].R * u[f.source[k]].xyz());
+    return at;
+}
+
+scalar solidSurface::missed(const List<vec4>& u, const List<tensor>& dF, scalar dt,
+                            const List<char>& zones) const
 {
     return parallelSum(cloud_->nSolid(), [&](label begin, label end) {
         scalar sum = 0;
@@ -200,8 +213,8 @@ scalar solidSurface::flux(const List<vec4>& u, const List<tensor>& dF, scalar dt
                 const sided& part = part_[s][i];
                 if (part.side < 0 || !zones[part.side]) continue;
                 const tensor F = gradientAtFoot(s, i), change = dt * rateAtFoot(s, i, u);
-                sum -=
-                    (meanCofactor(F, change) * areaAtRest(s, i)).dot(u[i].xyz() + dF[i] * part.e0);
+                sum += (meanCofactor(F, change) * areaAtRest(s, i)).dot(velocityAtFoot(s, i, u)) -
+                       part.S.dot(u[i].xyz() + dF[i] * part.e0);
             }
         return sum;
     });

@@ -51,7 +51,7 @@ TEST_CASE(
         solidSurface surface;
         surface.initialise(cloud, list, F);
         surface.setup(cloud, list, *kernel, F, images);
-        return surface.flux(cloud.Up, dF, 0.1, {0, 1});
+        return surface.missed(cloud.Up, dF, 0.1, {0, 1});
     };
     const scalar alone = flux({});
     CHECK(std::abs(alone) > 0.1);
