@@ -158,6 +158,7 @@ scalar particleShifting::shift(particleCloud& cloud, const neighbourList& list,
     scalar alpha = constant_ * way,
            beta = closing_ * dx * dx * std::min(way / (inFull * dx), scalar(1));
     const scalar gain = alpha / dx * stiffness_.crowding + beta / (dx * dx) * stiffness_.closing;
+    // (8.37): a gain above 2 enlarges the stiffest wave
     if (constexpr scalar most = 2; gain > most) alpha *= most / gain, beta *= most / gain;
     cloud.fillGhosts(cloud.Up, false);
     const label first = cloud.nSolid(), nFluid = cloud.n() - first;

@@ -12,7 +12,8 @@ namespace ispf
 namespace
 {
 
-// Of a neighbour at x [dx]: the change of both sums by its displacement, as that of the particle changes them by the opposite
+// A neighbour at x [dx], and the factors by which its displacement changes both sums.  A displacement of the particle itself
+// changes them by the opposite
 struct answer
 {
     vector x;
@@ -32,7 +33,7 @@ List<answer> answersOf(const smoothingKernel& kernel, int nDims, scalar dx)
     const scalar mean = sum / scalar(found.size());
     for (answer& a : found)
     {
-        constexpr scalar step = 1e-4;
+        constexpr scalar step = 1e-4;  // [dx], of the difference that gives F' (doc/constants.md)
         const scalar r = a.x.norm();
         const tensor nn = a.x * a.x.transpose() / (r * r);
         scalar rSqr[3], F[3];
@@ -56,7 +57,7 @@ scalar largestEigenvalue(const tensor& m, int nDims)
 
 shiftStiffness shiftStiffness::ofLattice(const smoothingKernel& kernel, int nDims, scalar dx)
 {
-    constexpr int waves = 8;  // per direction, up to the shortest
+    constexpr int waves = 8;  // per direction, up to the shortest (doc/constants.md)
     const List<answer> all = answersOf(kernel, nDims, dx);
     shiftStiffness most;
     for (int k = 0; k <= (nDims == 3 ? waves : 0); ++k)
