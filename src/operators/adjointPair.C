@@ -92,7 +92,7 @@ ISPF_HOT void remainderRange(const view& v, const vec4* g, label begin, label en
             const label j = v.list.index[k];
             const simd4 d = (v.x[j].s - xi) * inSpace, s = (gi + g[j].s) * d;
             const scalar jump = gi[3] - g[j].s[3] + 0.5 * (s[0] + s[1] + s[2]);
-            const scalar weighted = -v.list.F[k] * jump;
+            const scalar weighted = -adjointPair::stabiliserWeight * v.list.F[k] * jump;
             sum += weighted, moment += weighted * d;
         }
         m[i].s = moment, direct[i] = 2 * sum;

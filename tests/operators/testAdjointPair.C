@@ -103,7 +103,7 @@ TEST_CASE("the stabiliser is symmetric, takes energy, and leaves linear pressure
             CHECK(std::abs(qSp - pSq) < 1e-13 * pSp);
             const auto product = [&](const List<vec4>& a, const List<vec4>& b) {
                 return w.sumPairs([&](label i, std::int64_t k) {
-                    return w.weight(k) * w.jump(a, i, k) * w.jump(b, i, k);
+                    return adjointPair::stabiliserWeight * w.weight(k) * w.jump(a, i, k) * w.jump(b, i, k);
                 });
             };
             CHECK(pSp == doctest::Approx(product(gp, gp)).epsilon(1e-12));
