@@ -56,6 +56,21 @@ newCase membrane limits; place
 setEntry $solution coupling projection
 limited stiffness "" 0.1
 
+# ---- adjusted steps: however long deltaT is, fluid at rest that a pressure sets in motion gets to its end in steps of its own
+for coupling in projection monolithic; do
+    rm -rf "$scratch/fromRest"; mkdir -p "$scratch/fromRest/system" "$scratch/fromRest/constant"; cd "$scratch/fromRest" || exit 1
+    echo "dx 0.5e-3; nDims 2; zones { blood { phase fluid; shape box; min (0 0 0); max (20e-3 8e-3 0); } }" > system/particleDict
+    echo "walls { type wall; } in { type open; point (0 0 0); normal (-1 0 0); p 40; }
+        out { type open; point (20e-3 0 0); normal (1 0 0); p 0; }" > constant/boundary
+    echo "rho 1060; mu 3.5e-3;" > constant/physicalProperties
+    echo "coupling $coupling;" > $solution; : > system/sphSchemes
+    echo "endTime 0.1; deltaT 50; adjustTimeStep yes; writeControl none; functions { speed { type minMax; fields (U); } }" > $control
+    place; solved
+    grep -q "^Step size: half of one that was refused" log || fail "$coupling: no step was refused"
+    awk '!/^#/ { if (n && $1 + 0 <= last) exit 1; last = $1 + 0; ++n } END { exit !(n > 30 && last == 0.1) }' \
+        postProcessing/speed/0/minMax.dat || fail "$coupling: its steps: $(cut -f 1 postProcessing/speed/0/minMax.dat | tr '\n' ' ')"
+done
+
 # ---- a step that is made too long while the run goes on is refused before it is taken ----------------------
 newCase piston later; place
 setEntry $control writeControl none; setEntry $control endTime 1e4; setEntry $control deltaT 0.002

@@ -13,7 +13,10 @@ namespace ispf
 namespace
 {
 
-constexpr int mostHalvings = 4;
+// Of a step whose length is the user's, and of one that is adjusted
+constexpr int mostHalvings = 4, mostShortenings = 12;
+// An adjusted step over the one before it
+constexpr scalar fastestGrowth = 2;
 // Way of a particle in one step [dx]
 constexpr scalar farthest = 0.6;
 // Local error of a particle's way in one step [dx], and the share of it that the next step is to have
@@ -24,6 +27,8 @@ constexpr scalar mostGained = 0.05;
 constexpr scalar atRest = 1e-9;
 // Entry of cloud.history: largest local error of a way in the last step over dt^2 [m/s^2]
 const word roughOfStep = "wayError";
+// The same, with adjustTimeStep: length of the last step that was accepted [s]
+const word lastAccepted = "acceptedStep";
 
 }  // namespace
 
@@ -41,26 +46,45 @@ word couplingScheme::advice() const
     return "Run checkParticles, and see whether a load or a motion jumps";
 }
 
-void couplingScheme::step(scalar t, scalar dt)
+bool couplingScheme::step(scalar t, scalar dt)
 {
     printCourant(c_.cloud, dt);
-    advance(t, dt, 0);
+    if (c_.time.adjustTimeStep())
+    {
+        if (!accepted(t, dt, refusals_, mostShortenings))
+        {
+            ++refusals_;
+            return false;
+        }
+        refusals_ = 0;
+        c_.cloud.history[lastAccepted] = {dt};
+    }
+    else advance(t, dt, 0);
     if (c_.structure && c_.time.writeTime()) keep();
+    return true;
 }
 
 void couplingScheme::advance(scalar t, scalar dt, int depth)
 {
-    const particleCloud before = c_.cloud;
-    const word reason = attempt(t, dt);
-    if (reason.empty()) return;
-    if (depth == mostHalvings)
-        throw fatalError("Time " + str(t) + " s: a step of " + str(dt) +
-                         " s is refused: " + reason + ". Sixteenths of deltaT do not help. " +
-                         advice() + ". The last written time is intact");
-    warning("time " + str(t) + " s: step of " + str(dt) + " s halved: " + reason, 20);
-    c_.cloud = before;
+    if (accepted(t, dt, depth, mostHalvings)) return;
     advance(t, 0.5 * dt, depth + 1);
     advance(t + 0.5 * dt, 0.5 * dt, depth + 1);
+}
+
+// Takes the step, or undoes it and says why; the one after `most` halvings is the last
+bool couplingScheme::accepted(scalar t, scalar dt, int halvings, int most)
+{
+    const particleCloud before = c_.cloud;
+    const word reason = attempt(t, dt);
+    if (reason.empty()) return true;
+    if (halvings == most)
+        throw fatalError("Time " + str(t) + " s: a step of " + str(dt) +
+                         " s is refused: " + reason + ". Before it " + std::to_string(most) +
+                         " steps, each twice as long as the next, were refused. " + advice() +
+                         ". The last written time is intact");
+    warning("time " + str(t) + " s: step of " + str(dt) + " s halved: " + reason, 20);
+    c_.cloud = before;
+    return false;
 }
 
 // Mean velocity where an observer may move along (shiftingFrame.H), or zero
@@ -102,11 +126,19 @@ word couplingScheme::tooRough(const timeScheme& time, scalar dt, bool mean)
     return "";
 }
 
-couplingScheme::stepLimit couplingScheme::roughness() const
+couplingScheme::stepLimit couplingScheme::adjusted(const stepLimit& own) const
 {
-    const auto known = c_.cloud.history.find(roughOfStep);
-    if (known == c_.cloud.history.end() || !(known->second.at(0) > 0)) return {1e30, "no"};
-    return {std::sqrt(aimedAt * roughest * c_.cloud.dx / known->second[0]), "local error"};
+    if (!c_.time.adjustTimeStep()) return own;
+    stepLimit least = own;
+    const auto within = [&](const word& entry, const word& rule, auto&& stepOf) {
+        const auto known = c_.cloud.history.find(entry);
+        if (known == c_.cloud.history.end() || !(known->second.at(0) > 0)) return;
+        if (const scalar dt = stepOf(known->second[0]); dt < least.dt) least = {dt, rule};
+    };
+    within(roughOfStep, "local error",
+           [&](scalar error) { return std::sqrt(aimedAt * roughest * c_.cloud.dx / error); });
+    within(lastAccepted, "growth", [](scalar dt) { return fastestGrowth * dt; });
+    return least;
 }
 
 void couplingScheme::shift(const particleShifting& shifting, scalar dt)

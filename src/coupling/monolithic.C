@@ -132,8 +132,7 @@ couplingScheme::stepLimit monolithic::limit() const
     c_.walls->setStep(c_.time.value(), c_.stepEnd());
     const scalar u = velocityScale();
     if (!c_.time.adjustTimeStep() || u == 0) return {1e30, "no"};
-    const stepLimit rough = roughness(), own = {0.4 * c_.kernel->h() / u, "CFL"};
-    return rough.dt < own.dt ? rough : own;
+    return adjusted({0.4 * c_.kernel->h() / u, "CFL"});
 }
 
 void monolithic::structureState()

@@ -95,9 +95,7 @@ couplingScheme::stepLimit projection::limit() const
 {
     c_.walls->setStep(c_.time.value(), c_.stepEnd());
     List<vec4> spring;
-    const stepLimit own = limits_.ruling(accelerations(c_.walls->pressureSlope(), spring));
-    const stepLimit rough = roughness();
-    return c_.time.adjustTimeStep() && rough.dt < own.dt ? rough : own;
+    return adjusted(limits_.ruling(accelerations(c_.walls->pressureSlope(), spring)));
 }
 
 // Body force of the zone, springs, Eq. (2) of the paper, and the slope of p along cyclic patches

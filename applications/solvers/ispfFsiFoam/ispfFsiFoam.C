@@ -51,6 +51,25 @@ bool isUnresolved(const fsiCase& c)
     return true;
 }
 
+// Takes a step from the present time, a shorter one if the scheme asks for it; the rule that has chosen its length
+word advance(Time& time, couplingScheme& coupling)
+{
+    const couplingScheme::stepLimit limit = coupling.limit();
+    const scalar t0 = time.value();
+    const label index = time.timeIndex();
+    word rule = limit.rule + " limit" + (limit.dt < 1e29 ? " " + str(limit.dt, 3) + " s" : "");
+    for (scalar dt = chooseDeltaT(time, limit);; dt = 0.5 * time.deltaT())
+    {
+        time.setDeltaT(dt);
+        ++time;
+        info() << "Step size: " << rule << "\ndeltaT = " << str(time.deltaT())
+               << "\nTime = " << time.timeName() << "\n\n";
+        if (coupling.step(t0, time.deltaT())) return rule;
+        time.rewind(t0, index);
+        rule = "half of one that was refused";
+    }
+}
+
 int run(const argList& args)
 {
     Time::stopOnSignals();
@@ -69,17 +88,8 @@ int run(const argList& args)
     functions.start();
     while (time.run())
     {
-        const couplingScheme::stepLimit limit = coupling->limit();
         unresolved = unresolved || isUnresolved(c);
-        const scalar t0 = time.value();
-        time.setDeltaT(chooseDeltaT(time, limit));
-        ++time;
-        const word rule =
-            limit.rule + " limit" + (limit.dt < 1e29 ? " " + str(limit.dt, 3) + " s" : "");
-        info() << "Step size: " << rule << "\ndeltaT = " << str(time.deltaT())
-               << "\nTime = " << time.timeName() << "\n\n";
-
-        coupling->step(t0, time.deltaT());
+        const word rule = advance(time, *coupling);
         ledger.update(time.deltaT());
         ledger.writeLine();
         coupling->writeEnergy();

@@ -46,9 +46,15 @@ List<stepCost> makeSteps(fsiCase& c, label most, findings& found)
         const auto start = clock::now();
         const scalar cpuStart = c.time.elapsedCpuTime();
         const scalar t0 = c.time.value();
+        const label index = c.time.timeIndex();
         c.time.setDeltaT(std::min(c.time.deltaT(), coupling->limit().dt));
         ++c.time;
-        coupling->step(t0, c.time.deltaT());
+        if (!coupling->step(t0, c.time.deltaT()))
+        {
+            c.time.rewind(t0, index);
+            c.time.setDeltaT(0.5 * c.time.deltaT());
+            continue;
+        }
         costs.push_back({std::chrono::duration<scalar>(clock::now() - start).count(),
                          c.time.elapsedCpuTime() - cpuStart});
         spent += costs.back().seconds;
