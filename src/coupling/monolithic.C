@@ -106,6 +106,7 @@ private:
     List<tensor> F_;
     List<vec4> springsAt_, springForce_;
     List<scalar> q_;      // sources of the step [1/s]
+    List<scalar> left_;   // what the solver leaves of continuity [1/s]
     List<scalar> ahead_;  // J that the first step of DLN makes good in advance, else empty [1]
     blockMatrix3 K_;
 };
@@ -214,6 +215,7 @@ void monolithic::account(scalar dt)
         List<scalar> missed;
         volume_->overStep(c_.cloud.Up, time_.midway() ? 0 : dt, missed);
         for (size_t i = 0; i < ahead_.size(); ++i) missed[i] -= ahead_[i];
+        for (size_t i = 0; i < missed.size(); ++i) missed[i] += dt * left_[i];
         std::copy(missed.begin(), missed.end(), c_.cloud.scalars.at(missedField).begin());
     }
     // midway the geometry is the step's mean already
@@ -278,10 +280,12 @@ word monolithic::solve(scalar dt, List<scalar>& z)
 // What the solver leaves of D u - C (p - theta p^n) = q; its rows are scaled by dx
 void monolithic::printContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt)
 {
-    List<scalar> Az(b.size()), left(b.size() / 4);
+    List<scalar> Az(b.size());
+    left_.resize(b.size() / 4);
     system_.apply(z, Az);
-    for (size_t i = 0; i < left.size(); ++i) left[i] = (Az[4 * i + 3] - b[4 * i + 3]) / c_.cloud.dx;
-    ispf::printContinuityErrors(c_.cloud, left, dt);
+    for (size_t i = 0; i < left_.size(); ++i)
+        left_[i] = (Az[4 * i + 3] - b[4 * i + 3]) / c_.cloud.dx;
+    ispf::printContinuityErrors(c_.cloud, left_, dt);
 }
 
 scalar monolithic::cellReynolds(scalar speed) const
