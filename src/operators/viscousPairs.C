@@ -27,9 +27,9 @@ void viscousPairs::setup(const stencil& s)
 {
     cloud_ = &s.cloud, list_ = &s.list;
     List<scalar> c = sphc::laplacianScale(s);
-    // a strip ends: its support is truncated
-    for (label i = 0; i < s.cloud.n(); ++i)
-        if (s.cloud.beyondOpen(i)) c[i] = 1;
+    // a strip ends: its support is truncated, and so is that of its images
+    for (label j = 0; j < s.cloud.nAll(); ++j)
+        if (const label i = s.cloud.ownerOf(j); i >= 0 && s.cloud.beyondOpen(i)) c[j] = 1;
     K_.resize(s.list.index.size()), sum_.resize(s.cloud.n());
     parallelFor(s.cloud.n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i)

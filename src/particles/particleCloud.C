@@ -119,7 +119,7 @@ void particleCloud::addMirror(const imageSource& source, const vector& position,
 {
     addImage(source.particle, source.rule, position, b);
     through_.back() = through, volume_.back() = source.volume;
-    if (phase.back() == phaseType::fluid) phase.back() = phaseType::mirror;
+    phase.back() = phaseType::mirror;
     stretched_ = stretched_ || source.volume != 1;
 }
 
