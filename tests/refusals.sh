@@ -17,6 +17,9 @@ for coupling in projection monolithic; do
     about=$(sed '1,/^Create time/d' log | grep -iE "structure|wall |cavity|spring")
     [ "$about" = "structure: none" ] || fail "$coupling: $about"
 done
+echo "monolithic { theta 0.5; }" >> $solution
+refused "It acts on a solid, and this case has none"
+echo "coupling monolithic;" > $solution
 echo "structureModel springNetwork;" > constant/structureProperties
 refused "no particle is solid"
 

@@ -62,7 +62,13 @@ public:
     {
         time_.keepLevels();
         system_.enclosed().makeGood(makesGood_);
-        if (!c.structure) return;
+        if (!c.structure)
+        {
+            for (const char* entry : {"theta", "volumeFeedback", "divergenceDefect", "solid"})
+                if (dict_.found(entry))
+                    dict_.fail(entry, "It acts on a solid, and this case has none. Leave it away");
+            return;
+        }
         c.cloud.scalars[missedField].resize(c.cloud.n(), 0);
         K_ = c.structure->tangentPattern();
         preconditioner_.restore(K_);

@@ -33,7 +33,7 @@ struct chamber
         t.attributes["zones"] = "wall chamber", t.attributes["phases"] = zones;
         files.control =
             "startTime 0; endTime 1; deltaT 0.01; writeControl timeStep; writeInterval 1e6;";
-        files.solution = "coupling monolithic; monolithic { volumeFeedback 0; }";
+        files.solution = "coupling monolithic;";
         files.properties = "rho 1000; mu 1;";
         files.boundary =
             "left { type symmetryPlane; point (0 0 0); normal (-1 0 0); }"
@@ -41,9 +41,11 @@ struct chamber
             "piston { type wall; surface plane; point (0 0 0); normal (0 -1 0); " +
             extra;
         files.write();
-        if (zones.find("solid") != word::npos)
-            setContent(files.path() + "/constant/structureProperties",
-                       "structureModel springNetwork; E 1e4; links radius; radius 2.1;");
+        if (zones.find("solid") == word::npos) return;
+        setContent(files.path() + "/constant/structureProperties",
+                   "structureModel springNetwork; E 1e4; links radius; radius 2.1;");
+        setContent(files.path() + "/system/sphSolution",
+                   files.solution + " monolithic { volumeFeedback 0; }");
     }
 };
 
