@@ -13,7 +13,7 @@ namespace ispf
 namespace
 {
 
-// Of a step whose length is the user's, and of one that is adjusted
+// The scheme halves a step of the user's length, and one that is adjusted, at most this often
 constexpr int mostHalvings = 4, mostShortenings = 12;
 // An adjusted step over the one before it
 constexpr scalar fastestGrowth = 2;

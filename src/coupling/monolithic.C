@@ -92,7 +92,7 @@ private:
     void account(scalar dt);
     void addWay(scalar dt);
     word solve(scalar dt, List<scalar>& z);
-    void printContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt);
+    void keepContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt);
     scalar velocityScale() const;
     scalar cellReynolds(scalar speed) const;
     scalar rounding(scalar dt, const List<scalar>& z) const;
@@ -221,6 +221,7 @@ void monolithic::account(scalar dt)
         List<scalar> missed;
         volume_->overStep(c_.cloud.Up, time_.midway() ? 0 : dt, missed);
         for (size_t i = 0; i < ahead_.size(); ++i) missed[i] -= ahead_[i];
+        // J has this much of the solver's rest, doc/theory 5.6
         for (size_t i = 0; i < missed.size(); ++i) missed[i] += dt * left_[i];
         std::copy(missed.begin(), missed.end(), c_.cloud.scalars.at(missedField).begin());
     }
@@ -273,7 +274,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     const solverPerformance result = solver.solve(system_, preconditioner_, b, z);
     system_.enclosed().keepLevel(cloud, z);
     result.print();
-    printContinuityErrors(b, z, dt);
+    keepContinuityErrors(b, z, dt);
     // measured: a tenth of the tolerance's digits still steps stably, no reduction at all does not
     if (!result.converged && !(result.finalResidual < 100 * tolerance_ * result.initialResidual))
         return "the coupled system did not converge (residual " + str(result.finalResidual, 3) +
@@ -283,8 +284,8 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     return "";
 }
 
-// What the solver leaves of D u - C (p - theta p^n) = q; its rows are scaled by dx
-void monolithic::printContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt)
+// Prints and keeps what the solver leaves of D u - C (p - theta p^n) = q; the system's rows are scaled by dx
+void monolithic::keepContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt)
 {
     List<scalar> Az(b.size());
     left_.resize(b.size() / 4);
