@@ -144,7 +144,7 @@ couplingScheme::stepLimit couplingScheme::adjusted(const stepLimit& own) const
 void couplingScheme::shift(const particleShifting& shifting, scalar dt)
 {
     energy_.shifts([&] {
-        shifting.shift(c_.cloud, c_.list, c_.correction, dt, energy_.heated(),
+        shifting.shift(c_.cloud, c_.list, c_.correction, dt, energy_.taken(),
                        [&](label i) { return c_.walls->nearOpen(i); });
         toSolid_.clear();
         const scalar closest = shifting.on() ? shifting.closest() * c_.cloud.dx : 0;

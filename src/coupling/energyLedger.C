@@ -72,7 +72,7 @@ std::array<scalar, energyLedger::nStores> energyLedger::energies(const List<vec4
     return {kineticNow(), c_.structure ? c_.structure->energy(x) : 0, mass * heights};
 }
 
-// Energies have changed since the last step's end if particles were exchanged, or if a force has changed
+// Energies have changed since the last step's end if particles were exchanged, if a force has changed, or by hand between runs
 void energyLedger::begin(const List<vec4>& x)
 {
     terms_ = {}, left_ = 0;
@@ -80,9 +80,8 @@ void energyLedger::begin(const List<vec4>& x)
     last_ = begin_;
     if (const List<scalar>& sums = state(); !std::isnan(sums[0]))
         std::copy_n(sums.begin(), nStores, last_.begin());
-    const bool open = c_.walls->hasOpen();
-    terms_[open ? faces : shifting] += begin_[kinetic] - last_[kinetic];
-    terms_[open ? faces : forces] += begin_[potential] - last_[potential];
+    terms_[c_.walls->hasOpen() ? faces : forces] +=
+        begin_[kinetic] - last_[kinetic] + begin_[potential] - last_[potential];
     terms_[step] += begin_[elastic] - last_[elastic];
 }
 
@@ -93,6 +92,15 @@ scalar energyLedger::level(const List<vec4>& up) const
     for (label i = c_.cloud.nSolid(); i < c_.cloud.n(); ++i)
         if (c_.cloud.isFree(i)) sum += up[i][3], ++n;
     return n > 0 ? sum / n : 0;
+}
+
+scalar energyLedger::taken() const
+{
+    const List<scalar>& sums = state();
+    scalar without = 0;
+    for (const term t : {step, stabiliser, shifting}) without -= sums[nStores + t] + terms_[t];
+    return std::max(scalar(0), std::min(-terms_[viscosity], without)) /
+           (c_.rho * c_.cloud.volume());
 }
 
 void energyLedger::bookFriction(const viscousPairs::power& friction, scalar factor)
@@ -125,14 +133,14 @@ scalar energyLedger::bookSprings(const List<vec4>& f, scalar dt)
     scalar free = 0, clamped = 0;
     for (label i = 0; i < label(f.size()); ++i)
         (c_.cloud.isFree(i) ? free : clamped) += dt * f[i].xyz().dot(c_.cloud.Up[i].xyz());
-    terms_[step] += free + clamped, terms_[walls] -= clamped;
+    terms_[springs] += free + clamped, terms_[walls] -= clamped;
     return free;
 }
 
 void energyLedger::end()
 {
     end_ = energies(c_.cloud.x);
-    terms_[step] += end_[elastic] - begin_[elastic];
+    terms_[step] += terms_[springs] + end_[elastic] - begin_[elastic], terms_[springs] = 0;
     terms_[forces] += end_[potential] - begin_[potential];
     left_ = std::accumulate(end_.begin(), end_.end(), scalar(0)) -
             std::accumulate(last_.begin(), last_.end(), scalar(0)) -
@@ -155,7 +163,6 @@ std::pair<scalar, scalar> energyLedger::fromNothing() const
     gained -= terms_[solver];
     // what has changed before the step, e.g. by hand between two runs, is not of its making
     gained -= begin_[elastic] - last_[elastic];
-    if (!c_.walls->hasOpen()) gained -= begin_[kinetic] - last_[kinetic];
     for (int t = 0; t < nTerms; ++t) of += std::abs(terms_[t]);
     return {gained, of};
 }
