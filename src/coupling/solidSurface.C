@@ -2,6 +2,7 @@
 #include "solidSurface.H"
 #include "followWeights.H"
 #include "imagedPoints.H"
+#include "solidSides.H"
 #include "surfaceCover.H"
 #include "volumeConstraint.H"
 
@@ -17,58 +18,6 @@ namespace
 constexpr const char* areaField[2] = {"surfaceAreaA", "surfaceAreaB"};  // {S0, zone + 1}
 constexpr const char* wayField[2] = {"surfaceWayA", "surfaceWayB"};     // {e0, -}
 
-// Fluid zone of a neighbour, -1 for a rigid one
-int fluidZone(const particleCloud& cloud, label j)
-{
-    if (cloud.phase[j] == phaseType::rigid || cloud.phase[j] == phaseType::mirror) return -1;
-    return cloud.zone[j < cloud.n() ? j : cloud.ghostSource(j)];
-}
-
-// Half the mean way along n to the fluid on that side, of whatever zone
-vector wayAhead(const particleCloud& cloud, const neighbourList& list, label i, const vector& n)
-{
-    scalar sum = 0, moment = 0;
-    for (std::int64_t k = list.mid[i]; k < list.start[i + 1]; ++k)
-    {
-        const label j = list.index[k];
-        const scalar d = (cloud.x[j].xyz() - cloud.x[i].xyz()).dot(n);
-        if (d > 0 && fluidZone(cloud, j) >= 0) sum += list.F[k] * d, moment += list.F[k] * d * d;
-    }
-    return 0.5 * moment / sum * n;
-}
-
-// The two fluid zones that weigh most about solid particle i: 2 V sum grad W [m^nDims-1] of each, and half the mean way
-// along it to the neighbours
-struct sideSums
-{
-    label zone[2] = {-1, -1};
-    vector area[2], way[2];
-
-    sideSums(const particleCloud& cloud, const neighbourList& list, label i)
-    {
-        const scalar V = cloud.volume(), least = 2e-3 * V / cloud.dx;  // below it is out of sight
-        List<vector> areas(cloud.zones.size(), vector::Zero());
-        for (std::int64_t k = list.mid[i]; k < list.start[i + 1]; ++k)
-        {
-            const label j = list.index[k];
-            const int z = fluidZone(cloud, j);
-            if (z < 0) continue;
-            const vector xij = cloud.x[i].xyz() - cloud.x[j].xyz();
-            areas[z] += 2 * V * list.F[k] * xij;
-        }
-        for (const int s : {0, 1})
-        {
-            const auto most = std::max_element(
-                areas.begin(), areas.end(),
-                [](const vector& a, const vector& b) { return a.norm() < b.norm(); });
-            if (most->norm() < least) break;
-            zone[s] = label(most - areas.begin());
-            area[s] = *most, way[s] = wayAhead(cloud, list, i, most->normalized());
-            most->setZero();
-        }
-    }
-};
-
 }  // namespace
 
 void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
@@ -78,8 +27,9 @@ void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
     for (const int s : {0, 1})
         for (const char* name : {areaField[s], wayField[s]})
             cloud.vectors[name].assign(cloud.n(), vec4{});
-    List<sideSums> sides;
-    for (label i = 0; i < cloud.nSolid(); ++i) sides.emplace_back(cloud, list, i);
+    const solidSides all(cloud, list, images);
+    List<solidSides::sides> sides;
+    for (label i = 0; i < cloud.nSolid(); ++i) sides.push_back(all.of(i));
     for (label z = 0; z < label(cloud.zones.size()); ++z)
     {
         List<std::pair<label, int>> looking;  // particle, its side

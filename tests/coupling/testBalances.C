@@ -132,6 +132,39 @@ TEST_CASE("a pressure for each body of fluid loads the solid by its area vectors
     MESSAGE("area vectors of a block in the midst of fluid add up to " << most << " of its area");
 }
 
+TEST_CASE("a solid that meets a wall has the same area vectors there as away from it")
+{
+    for (const scene& s : scenes)
+        for (const int nDims : {2, 3})
+        {
+            const bool plate = s.zoneOf == across;
+            if (!plate && s.zoneOf != onTheFloor && s.zoneOf != clampedBelow) continue;
+            if (s.floor == symmetry) continue;
+            const world w(s, nDims, 0);
+            INFO(w.about());
+            const particleCloud& cloud = w.cloud();
+            const List<vec4>&areas = cloud.vectors.at("surfaceAreaA"), &x0 = cloud.vectors.at("x0");
+            label asked = 0;
+            for (label i = 0; i < cloud.nSolid(); ++i)
+            {
+                // the row next to the wall, and the next one: both see the fluid beside them alone
+                if (x0[i][1] > dx || (plate && nDims == 3 && std::abs(x0[i][2] - 4.5 * dx) > dx))
+                    continue;
+                for (label j = 0; j < cloud.nSolid(); ++j)
+                    if ((x0[j].xyz() - x0[i].xyz() - dx * vector::UnitY()).norm() < 0.1 * dx)
+                    {
+                        CHECK((areas[j].xyz() - areas[i].xyz()).norm() <=
+                              1e-2 * areas[j].xyz().norm());
+                        asked += areas[j][3] > 0;
+                    }
+            }
+            CHECK(asked >= 2);
+            if (!plate) continue;
+            const scalar face = w.V() / dx * size[1] * (nDims == 3 ? size[2] : 1);
+            CHECK((w.areaOfSolid(water) + face * vector::UnitX()).norm() < 0.01 * face);
+        }
+}
+
 TEST_CASE("the volume of the fluid is what walls, open faces and the solid's surface let in")
 {
     for (const auto& made : worlds())

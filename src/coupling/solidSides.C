@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solidSides.H"
+
+#include <algorithm>
+
+namespace ispf
+{
+
+int fluidZone(const particleCloud& cloud, label j)
+{
+    if (cloud.phase[j] == phaseType::rigid || cloud.phase[j] == phaseType::mirror) return -1;
+    return cloud.zone[cloud.ownerOf(j)];
+}
+
+solidSides::solidSides(const particleCloud& cloud, const neighbourList& list,
+                       const List<isometry>& images)
+    : cloud_(cloud), list_(list)
+{
+    if (!cloud.hasRigid()) return;
+    List<vector> x;
+    for (label i = 0; i < cloud.n(); ++i) x.push_back(cloud.x[i].xyz());
+    owned_ = std::make_unique<imagedPoints>(x, 1.5 * cloud.dx, images);
+}
+
+// Does the wall's surface next to the nearest rigid particle lie before particle i?
+bool solidSides::beyondWall(label i) const
+{
+    scalar nearest = 1e30;
+    bool beyond = false;
+    for (std::int64_t k = list_.mid[i]; k < list_.start[i + 1]; ++k)
+    {
+        const label j = list_.index[k];
+        if (cloud_.phase[j] != phaseType::rigid) continue;
+        const vector way = cloud_.x[i].xyz() - cloud_.x[j].xyz();
+        const vec4& d = cloud_.ghostDepth(j);
+        if (way.norm() < nearest)
+            nearest = way.norm(), beyond = d[3] > 0 && d.xyz().dot(way) <= d[3];
+    }
+    return beyond;
+}
+
+// Zone of what neighbour j of solid particle i is, or what it stands for beyond a wall; -1: no fluid
+int solidSides::mirroredZone(label i, label j) const
+{
+    if (cloud_.phase[j] == phaseType::mirror)
+    {
+        const label source = cloud_.ownerOf(j);
+        return cloud_.isFluid(source) ? cloud_.zone[source] : -1;
+    }
+    if (cloud_.phase[j] != phaseType::rigid) return fluidZone(cloud_, j);
+    const vec4& d = cloud_.ghostDepth(j);
+    if (!(d[3] > 0) || !(d.xyz().dot(cloud_.x[i].xyz() - cloud_.x[j].xyz()) > d[3])) return -1;
+    scalar nearest = 1e30;
+    label next = -1;
+    owned_->grid.within(cloud_.x[j].xyz() + 2 * d[3] * d.xyz(), 1.5 * cloud_.dx,
+                        [&](label k, scalar r) {
+                            if (r < nearest) nearest = r, next = owned_->source[k];
+                        });
+    return next >= cloud_.nSolid() ? cloud_.zone[next] : -1;
+}
+
+// Half the mean way along n to the fluid on that side, of whatever zone
+vector solidSides::wayAhead(label i, const vector& n) const
+{
+    scalar sum = 0, moment = 0;
+    for (std::int64_t k = list_.mid[i]; k < list_.start[i + 1]; ++k)
+    {
+        const label j = list_.index[k];
+        const scalar d = (cloud_.x[j].xyz() - cloud_.x[i].xyz()).dot(n);
+        if (d > 0 && fluidZone(cloud_, j) >= 0) sum += list_.F[k] * d, moment += list_.F[k] * d * d;
+    }
+    return sum != 0 ? vector(0.5 * moment / sum * n) : vector(0.5 * cloud_.dx * n);
+}
+
+solidSides::sides solidSides::of(label i) const
+{
+    sides s;
+    const bool beyond = owned_ && beyondWall(i);
+    const scalar V = cloud_.volume(), least = 2e-3 * V / cloud_.dx;  // below it is out of sight
+    List<vector> areas(cloud_.zones.size(), vector::Zero());
+    for (std::int64_t k = list_.mid[i]; k < list_.start[i + 1] && !beyond; ++k)
+        if (const int z = mirroredZone(i, list_.index[k]); z >= 0)
+            areas[z] += 2 * V * list_.F[k] * (cloud_.x[i].xyz() - cloud_.x[list_.index[k]].xyz());
+    for (const int k : {0, 1})
+    {
+        const auto most =
+            std::max_element(areas.begin(), areas.end(),
+                             [](const vector& a, const vector& b) { return a.norm() < b.norm(); });
+        if (most->norm() < least) break;
+        s.zone[k] = label(most - areas.begin());
+        s.area[k] = *most, s.way[k] = wayAhead(i, most->normalized());
+        most->setZero();
+    }
+    return s;
+}
+
+}  // namespace ispf
