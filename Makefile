@@ -8,29 +8,54 @@ OPT  ?= Release
 B    := build/$(OPT)
 
 # ---- the layers, lowest first -------------------------------------------------------------------
-LIBS := core geometry surfaceTools linearSolvers fileFormats particles placement boundary operators models coupling \
-        functionObjects
+LIBS := core/base core/dictionary core/control geometry surfaceTools fileFormats particles placement \
+        linearSolvers/matrices linearSolvers/direct linearSolvers/multigrid linearSolvers/krylov \
+        operators/pairs operators/order \
+        boundary/surfaces boundary/walls boundary/open boundary/patches \
+        solid/reference solid/surface solid/springs solid/selection case \
+        schemes/common schemes/projection schemes/monolithic schemes/selection \
+        functionObjects/base functionObjects/fields functionObjects/bodies functionObjects/list
 
-USES_core            :=
-USES_geometry        := core
-USES_surfaceTools    := geometry
-USES_linearSolvers   := core
-USES_particles       := core
-USES_placement       := particles geometry
-USES_boundary        := particles geometry fileFormats
-USES_fileFormats     := core
-USES_operators       := particles linearSolvers
-USES_models          := operators
-USES_coupling        := models boundary fileFormats
-USES_functionObjects := coupling
+USES_core/base               :=
+USES_core/dictionary         := core/base
+USES_core/control            := core/dictionary
+USES_geometry                := core/base
+USES_surfaceTools            := geometry
+USES_fileFormats             := core/dictionary
+USES_particles               := core/base
+USES_placement               := particles geometry
+USES_linearSolvers/matrices  := core/base
+USES_linearSolvers/direct    := linearSolvers/matrices
+USES_linearSolvers/multigrid := linearSolvers/matrices core/dictionary
+USES_linearSolvers/krylov    := linearSolvers/direct linearSolvers/multigrid
+USES_operators/pairs         := particles linearSolvers/matrices core/dictionary
+USES_operators/order         := operators/pairs
+USES_boundary/surfaces       := particles geometry fileFormats core/control
+USES_boundary/walls          := boundary/surfaces
+USES_boundary/open           := boundary/surfaces
+USES_boundary/patches        := boundary/walls boundary/open
+USES_solid/reference         := linearSolvers/matrices particles core/dictionary
+USES_solid/surface           := solid/reference
+USES_solid/springs           := solid/reference linearSolvers/krylov
+USES_solid/selection         := solid/springs
+USES_case                    := boundary/patches operators/order solid/selection
+USES_schemes/common          := case solid/surface
+USES_schemes/projection      := schemes/common
+USES_schemes/monolithic      := schemes/common
+USES_schemes/selection       := schemes/projection schemes/monolithic
+USES_functionObjects/base    := schemes/common
+USES_functionObjects/fields  := functionObjects/base
+USES_functionObjects/bodies  := functionObjects/base
+USES_functionObjects/list    := functionObjects/fields functionObjects/bodies
 
 # Programs: one folder each, all its *.C.  They see every library; packages beyond the common ones:
 APPS := $(sort $(dir $(wildcard applications/solvers/*/*.C applications/utilities/*/*/*.C)))
 PKG_generateParticles := -lgmsh
 
-# Tests: one doctest program per folder of tests/, seeing the library of the same name and below; one
-# named after a program sees every library and all of the program but its main.
-TESTS := $(sort $(notdir $(patsubst %/,%,$(dir $(wildcard tests/*/*.C)))))
+# Tests: one doctest program per folder of tests/, seeing the libraries of the same name and below; one
+# named after a program sees every library and all of the program but its main.  ALSO_: what a test needs beyond
+TESTS := $(sort $(notdir $(patsubst %/,%,$(dir $(wildcard tests/*/main.C)))))
+ALSO_operators := linearSolvers/krylov
 PKG_TEST_generateParticles := $(PKG_generateParticles)
 
 # ---- flags ---------------------------------------------------------------------------------------
@@ -63,8 +88,9 @@ reverse   = $(if $(1),$(call reverse,$(wordlist 2,$(words $(1)),$(1))) $(firstwo
 closure   = $(sort $(1) $(foreach u,$(1),$(call closure,$(USES_$(u)))))
 ordered   = $(filter $(call closure,$(1)),$(LIBS))
 quoted    = $(foreach l,$(1),-iquote src/$(l))
-archives  = $(foreach l,$(call reverse,$(LIBS)),$(if $(wildcard src/$(l)/*.C),$(B)/lib$(l).a))
-archivesOf= $(foreach l,$(call reverse,$(call ordered,$(1))),$(if $(wildcard src/$(l)/*.C),$(B)/lib$(l).a))
+archives  = $(foreach l,$(call reverse,$(LIBS)),$(B)/lib/$(l).a)
+archivesOf= $(foreach l,$(call reverse,$(call ordered,$(1))),$(B)/lib/$(l).a)
+group     = $(if $(filter $(1) $(1)/%,$(LIBS)),$(filter $(1) $(1)/%,$(LIBS)) $(ALSO_$(1)))
 
 .PHONY: all test validate validateLong fuzz demo bench clean help format
 all: ## build every library and program
@@ -75,9 +101,9 @@ help: ## this list
 define LIBRARY
 OBJ_$(1) := $$(patsubst %.C,$(B)/%.o,$$(wildcard src/$(1)/*.C))
 $$(OBJ_$(1)): INC = $$(call quoted,$$(call ordered,$(1)))
-$(B)/lib$(1).a: $$(OBJ_$(1))
-	@rm -f $$@; ar rcs $$@ $$^
-all: $$(if $$(wildcard src/$(1)/*.C),$(B)/lib$(1).a)
+$(B)/lib/$(1).a: $$(OBJ_$(1))
+	@mkdir -p $$(@D); rm -f $$@; ar rcs $$@ $$^
+all: $(B)/lib/$(1).a
 OBJECTS += $$(OBJ_$(1))
 endef
 $(foreach l,$(LIBS),$(eval $(call LIBRARY,$(l))))
@@ -96,9 +122,9 @@ endef
 $(foreach a,$(patsubst %/,%,$(APPS)),$(eval $(call PROGRAM,$(a))))
 
 define TEST
-OBJ_test_$(1) := $$(patsubst %.C,$(B)/%.o,$$(wildcard tests/$(1)/*.C))
-$$(OBJ_test_$(1)): INC = $$(call quoted,$$(if $$(filter $(1),$$(LIBS)),$$(call ordered,$(1)),$$(LIBS))) -iquote tests $$(addprefix -iquote ,$$(filter %/$(1)/,$$(APPS)))
-$(B)/testPrograms/$(1): $$(OBJ_test_$(1)) $$(filter-out %/$(1).o,$$(OBJ_app_$(1))) $$(if $$(filter $(1),$$(LIBS)),$$(call archivesOf,$(1)),$$(call archives))
+OBJ_test_$(1) := $$(patsubst %.C,$(B)/%.o,$$(filter-out %/libFuzzer/entry.C,$$(wildcard tests/$(1)/*.C tests/$(1)/*/*.C)))
+$$(OBJ_test_$(1)): INC = $$(call quoted,$$(if $$(call group,$(1)),$$(call ordered,$$(call group,$(1))),$$(LIBS))) -iquote tests -iquote tests/$(1) $$(addprefix -iquote ,$$(filter %/$(1)/,$$(APPS)))
+$(B)/testPrograms/$(1): $$(OBJ_test_$(1)) $$(filter-out %/$(1).o,$$(OBJ_app_$(1))) $$(if $$(call group,$(1)),$$(call archivesOf,$$(call group,$(1))),$$(call archives))
 	@mkdir -p $$(@D); echo "LD   $$@"
 	@$$(CXX) $$(FLAGS_$$(OPT)) $$^ -o $$@ $$(PKG_TEST_$(1)) $$(LDLIBS)
 OBJECTS += $$(OBJ_test_$(1))
@@ -119,7 +145,7 @@ FUZZED := dictionary csv stl hdf5 hdf5Damaged
 define FUZZER
 $(B)/fuzz/$(1): tests/fuzz/libFuzzer/entry.C $(B)/tests/fuzz/$(1:Damaged=)Target.o $$(call archivesOf,geometry fileFormats)
 	@mkdir -p $$(@D); echo "LD   $$@"
-	@$$(CXX) $$(CXXFLAGS) -fsanitize=fuzzer -iquote src/core -iquote tests/fuzz -DTARGET=$(1) $$^ -o $$@ $$(HDF5_L) -lmuparser -lre2 -lhdf5
+	@$$(CXX) $$(CXXFLAGS) -fsanitize=fuzzer -iquote src/core/base -iquote src/core/dictionary -iquote tests/fuzz -DTARGET=$(1) $$^ -o $$@ $$(HDF5_L) -lmuparser -lre2 -lhdf5
 fuzzTargets: $(B)/fuzz/$(1)
 endef
 .PHONY: fuzzTargets

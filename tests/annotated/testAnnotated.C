@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // etc/caseDicts/annotated against the sources, both ways: every key that a program asks for is annotated,
 // with its default, its words and its range; every annotated key is one that is asked for.  That the
-// files are valid, with each key in its place, is shown by running them: tests/annotated.sh.
+// files are valid, with each key in its place, is shown by running them: tests/repository/annotated.sh.
 #include "dictionary.H"
 #include "fileNames.H"
 #include "sourceScan.H"
@@ -25,25 +25,25 @@ struct home
     const char *file, *receiver, *annotated;
 };
 const home homes[] = {
-    {"core/Function1", "", "Function1"},
-    {"core/TimeControls", "d", "controlDict uniformTime"},
-    {"core/TimeControls", "changed.control_", "functions"},
+    {"control/Function1", "", "Function1"},
+    {"control/TimeControls", "d", "controlDict uniformTime"},
+    {"control/TimeControls", "changed.control_", "functions"},
     {"placement/|ispfDictionary", "", "none"},
-    {"core/Time", "", "controlDict"},
-    {"core/argList|fileFormats|cloudIO|siteFile|ispfPostProcess", "", "none"},
+    {"control/Time", "", "controlDict"},
+    {"control/argList|fileFormats|cloudIO|siteFile|ispfPostProcess", "", "none"},
     {".*", "args|file|patches|sum|volume_|in", "none"},
-    {"functionObjects/surfaceLeaks", "d", "boundary"},
-    {"functionObjects/functionObjectList", "c.time.controlDict\\(\\)", "functions"},
+    {"functionObjects/bodies/surfaceLeaks", "d", "boundary"},
+    {"functionObjects/list/functionObjectList", "c.time.controlDict\\(\\)", "functions"},
     {"functionObjects", "", "functions"},
     {"boundary/", "", "boundary"},
-    {"models/", "", "structureProperties"},
-    {"linearSolvers|operators/(adjointPair|density|particleSh)", "", "sphSolution"},
-    {"coupling/fsiCase|coupling/timeScheme", ".*schemes", "sphSchemes"},
-    {"coupling/shiftingFrame", "", "boundary"},
-    {"coupling/fsiCase", "solution", "sphSolution"},
-    {"coupling/fsiCase", "g|dict|", "g"},
-    {"coupling/fsiCase", "physical|zoneRho|perZone", "physicalProperties"},
-    {"coupling/", "", "sphSolution"},
+    {"solid/", "", "structureProperties"},
+    {"linearSolvers|operators/\\w+/(adjointPair|density|particleSh)", "", "sphSolution"},
+    {"case/fsiCase|common/timeScheme", ".*schemes", "sphSchemes"},
+    {"common/shiftingFrame", "", "boundary"},
+    {"case/fsiCase", "solution", "sphSolution"},
+    {"case/fsiCase", "g|dict|", "g"},
+    {"case/fsiCase", "physical|zoneRho|perZone", "physicalProperties"},
+    {"schemes/|case/", "", "sphSolution"},
     {"generateParticles/particleDict", "patch|boundary", "boundary"},
     {"generateParticles/", "", "particleDict"},
     {"calibrateSprings", "schemes", "sphSchemes"},

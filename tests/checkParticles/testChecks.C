@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "checks.H"
-#include "coupling/caseOnDisk.H"
+#include "schemes/caseOnDisk.H"
 #include "relative.H"
 
 using namespace ispf;

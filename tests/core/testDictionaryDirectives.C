@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // #calc #eval #neg, #if and its kin, macros in all spellings.  Expected values: what OpenFOAM v1912's
-// foamDictionary -expand prints (tests/foamDictionary.sh compares with the program itself), or arithmetic.
+// foamDictionary -expand prints (tests/utilities/foamDictionary.sh compares with the program itself), or arithmetic.
 #include "dictionary.H"
 #include "errorOf.H"
 #include "relative.H"
@@ -186,7 +186,7 @@ TEST_CASE("#if and #ifeq, nested, with #else")
     CHECK(d.subDict("b").get<label>("y") == 4);
 }
 
-// As foamDictionary has it, tests/foamDictionary.sh
+// As foamDictionary has it, tests/utilities/foamDictionary.sh
 TEST_CASE("#ifeq compares numbers with numbers, and the text of words and strings")
 {
     const auto equal = [](const word& a, const word& b) {

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "functionObject.H"
+
+#include "fileNames.H"
+
+namespace ispf
+{
+
+functionObject::functionObject(const word& name, const dictionary& dict, const fsiCase& c)
+    : name_(name), case_(c), begin_(c.time.value())
+{
+    precision_ = dict.getInRangeOrDefault<label>("writePrecision", 1, 17, c.time.writePrecision());
+}
+
+word functionObject::folder(const word& time) const
+{
+    return case_.caseFolder() + "/postProcessing/" + name_ + "/" + time;
+}
+
+word functionObject::startFolder() const
+{
+    return folder(case_.time.timeName(begin_));
+}
+
+word functionObject::tablePath(const word& file) const
+{
+    const word path = startFolder() + "/" + file;
+    if (!case_.time.postProcessing() || !isFile(path)) return path;
+    const size_t dot = std::min(path.find('.', startFolder().size()), path.size());
+    return path.substr(0, dot) + "_" + case_.time.timeName(begin_) + path.substr(dot);
+}
+
+dataFile functionObject::table(const word& file, const List<word>& remarks,
+                               const List<word>& titles, int digits) const
+{
+    return dataFile(tablePath(file), remarks, titles, precision(digits));
+}
+
+}  // namespace ispf

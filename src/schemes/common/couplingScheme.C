@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "couplingScheme.H"
+
+#include "approachLimit.H"
+#include "shiftingFrame.H"
+#include "stepReport.H"
+
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+// The scheme halves a step of the user's length, and one that is adjusted, at most this often
+constexpr int mostHalvings = 4, mostShortenings = 12;
+// An adjusted step over the one before it
+constexpr scalar fastestGrowth = 2;
+// Way of a particle in one step [dx]
+constexpr scalar farthest = 0.6;
+// Local error of a particle's way in one step [dx], and the share of it that the next step is to have
+constexpr scalar roughest = 0.2, aimedAt = 0.8;
+// Share of the energies at hand that a step may gain from nothing
+constexpr scalar mostGained = 0.05;
+// Way of the fastest particle in one step [dx] below which what is gained is rounding
+constexpr scalar atRest = 1e-9;
+// Entry of cloud.history: largest local error of a way in the last step over dt^2 [m/s^2]
+const word roughOfStep = "wayError";
+// The same, with adjustTimeStep: length of the last step that was accepted [s]
+const word lastAccepted = "acceptedStep";
+
+}  // namespace
+
+couplingScheme::couplingScheme(fsiCase& c) : c_(c), energy_(c), endless_(shiftingFrame(c) == "mean")
+{
+}
+
+word couplingScheme::advice() const
+{
+    return "Run checkParticles, and see whether a load or a motion jumps";
+}
+
+bool couplingScheme::step(scalar t, scalar dt)
+{
+    printCourant(c_.cloud, dt);
+    if (c_.time.adjustTimeStep())
+    {
+        if (!accepted(t, dt, refusals_, mostShortenings))
+        {
+            ++refusals_;
+            return false;
+        }
+        refusals_ = 0;
+        c_.cloud.history[lastAccepted] = {dt};
+    }
+    else advance(t, dt, 0);
+    if (c_.structure && c_.time.writeTime()) keep();
+    return true;
+}
+
+void couplingScheme::advance(scalar t, scalar dt, int depth)
+{
+    if (accepted(t, dt, depth, mostHalvings)) return;
+    advance(t, 0.5 * dt, depth + 1);
+    advance(t + 0.5 * dt, 0.5 * dt, depth + 1);
+}
+
+// Takes the step, or undoes it and says why; the one after `most` halvings is the last
+bool couplingScheme::accepted(scalar t, scalar dt, int halvings, int most)
+{
+    const particleCloud before = c_.cloud;
+    const word reason = attempt(t, dt);
+    if (reason.empty()) return true;
+    if (halvings == most)
+        throw fatalError("Time " + str(t) + " s: a step of " + str(dt) +
+                         " s is refused: " + reason + ". Before it " + std::to_string(most) +
+                         " steps, each twice as long as the next, were refused. " + advice() +
+                         ". The last written time is intact");
+    warning("time " + str(t) + " s: step of " + str(dt) + " s halved: " + reason, 20);
+    c_.cloud = before;
+    return false;
+}
+
+// Mean velocity where an observer may move along (shiftingFrame.H), or zero
+vector couplingScheme::frame() const
+{
+    vector sum = vector::Zero();
+    for (label i = 0; endless_ && i < c_.cloud.n(); ++i) sum += c_.cloud.Up[i].xyz();
+    return sum / scalar(c_.cloud.n());
+}
+
+word couplingScheme::tooFar(scalar dt) const
+{
+    const particleCloud& cloud = c_.cloud;
+    const vector along = frame();
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        const scalar way = dt * (cloud.Up[i].xyz() - along).norm();
+        if (way < farthest * cloud.dx && std::isfinite(cloud.Up[i][3])) continue;
+        return cloud.describe(i) + " would move " + str(way / cloud.dx, 3) + " dx";
+    }
+    return "";
+}
+
+word couplingScheme::tooRough(const timeScheme& time, scalar dt, bool mean)
+{
+    const particleCloud& cloud = c_.cloud;
+    const scalar most = roughest * cloud.dx;
+    scalar worst = 0;
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        if (!cloud.isFree(i)) continue;
+        const scalar error = time.errorOfWay(cloud, i, mean);
+        worst = std::max(worst, error);
+        if (error > most)
+            return "the way of " + cloud.describe(i) + " is uncertain by " +
+                   str(error / cloud.dx, 3) + " dx, so fast does its velocity change";
+    }
+    if (c_.time.adjustTimeStep()) c_.cloud.history[roughOfStep] = {worst / (dt * dt)};
+    return "";
+}
+
+couplingScheme::stepLimit couplingScheme::adjusted(const stepLimit& own) const
+{
+    if (!c_.time.adjustTimeStep()) return own;
+    stepLimit least = own;
+    const auto within = [&](const word& entry, const word& rule, auto&& stepOf) {
+        const auto known = c_.cloud.history.find(entry);
+        if (known == c_.cloud.history.end() || !(known->second.at(0) > 0)) return;
+        if (const scalar dt = stepOf(known->second[0]); dt < least.dt) least = {dt, rule};
+    };
+    within(roughOfStep, "local error",
+           [&](scalar error) { return std::sqrt(aimedAt * roughest * c_.cloud.dx / error); });
+    within(lastAccepted, "growth", [](scalar dt) { return fastestGrowth * dt; });
+    return least;
+}
+
+void couplingScheme::shift(const particleShifting& shifting, scalar dt)
+{
+    energy_.shifts([&] {
+        shifting.shift(c_.cloud, c_.list, c_.correction, dt, energy_.taken(),
+                       [&](label i) { return c_.walls->nearOpen(i); });
+        toSolid_.clear();
+        const scalar closest = shifting.on() ? shifting.closest() * c_.cloud.dx : 0;
+        if (closest > 0)
+        {
+            limitApproach(c_.cloud, c_.list, closest, dt, toSolid_);
+            c_.walls->limitApproach(c_.cloud, 0.5 * closest, dt);
+        }
+    });
+}
+
+void couplingScheme::move(const timeScheme& time, bool mean)
+{
+    time.move(c_.cloud, mean);
+    energy_.shifts([&] {
+        for (size_t i = 0; i < toSolid_.size(); ++i) c_.cloud.Up[i].s += toSolid_[i].s;
+    });
+}
+
+word couplingScheme::gains(scalar dt) const
+{
+    if (!(c_.cloud.maxSpeed() * dt > atRest * c_.cloud.dx)) return "";
+    const auto [gained, of] = energy_.fromNothing();
+    if (!(gained > mostGained * of)) return "";
+    return "in it the flow gains " + str(gained, 3) + " J from nothing, " +
+           str(100 * gained / of, 3) + " % of the energies at hand (" + energy_.largest() + ")";
+}
+
+}  // namespace ispf
