@@ -7,6 +7,14 @@
 namespace ispf
 {
 
+namespace
+{
+
+// Flow that counts as small [dx of the face's area per step], and fluid that answers to a pressure at least [dx]
+constexpr scalar slowest = 0.01, inertia = 10;
+
+}  // namespace
+
 openFace::openFace(const word& name, const dictionary& dict, const word& caseFolder, setting s)
     : name_(name),
       where_(dict.where("type")),
@@ -35,24 +43,46 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
         deep_ = patchSurface::triangles(mesh, s.group, far);
         outward = mesh_.normal();
     }
+    images_ = s.group.symmetryFactor();
     if (inflow::given(dict))
     {
         dict.found("backflow");  // may stay when the pressure goes
-        const scalar images = s.group.symmetryFactor();
         inflow_ = std::make_unique<inflow>(
             dict, caseFolder,
-            inflow::place{mesh_, s.isHeld, images, outward,
+            inflow::place{mesh_, s.isHeld, images_, outward,
                           s.cloud.nDims == 3 ? dims::flowRate : dims::kinematicViscosity});
         return;
     }
-    p_ = Function1::New("p", dict, caseFolder, dims::pressure);
+    p_ = std::make_unique<outletPressure>(outlet::New(dict, caseFolder));
     backflow_ = dict.getInRangeOrDefault("backflow", 0, 1, 0.5);
 }
 
 void openFace::setStep(scalar t0, scalar t1, scalar pressures)
 {
-    if (p_) given_ = p_->value(pressures);
-    else inflow_->setStep(t0, t1);
+    time_ = pressures;
+    if (inflow_) inflow_->setStep(t0, t1);
+}
+
+// - sum V r_i of (4.4) over the strip
+scalar openFace::outflow(const particleCloud& cloud) const
+{
+    scalar sum = 0;
+    for (size_t k = 0; k < areas_.size(); ++k) sum -= cloud.stripIntake[firstStrip_ + k];
+    return sum;
+}
+
+bool openFace::agrees(const particleCloud& cloud, scalar rho, scalar dt) const
+{
+    scalar area = 0;
+    for (const auto& [zone, A] : areas_) area += A.norm();
+    return !p_ ||
+           p_->agrees(images_ * outflow(cloud), {images_ * area * slowest * dx_ / dt,
+                                                 -images_ * area * dt / (rho * inertia * dx_)});
+}
+
+void openFace::accept(particleCloud& cloud, scalar t0, scalar t1) const
+{
+    if (p_) cloud.history[outletOf + name_] = p_->accept(t0, t1, images_ * flux_);
 }
 
 scalar openFace::weight(scalar q)

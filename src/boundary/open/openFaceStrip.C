@@ -48,6 +48,8 @@ void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
     List<scalar>& slope = cloud.scalars[slopeField];
     slope.resize(cloud.n(), 0);
     if (inflow_) return setVelocity(cloud, number);
+    const auto kept = cloud.history.find(outletOf + name_);
+    given_ = p_->begin(time_, kept == cloud.history.end() ? List<scalar>() : kept->second);
     parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
         for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
         {
@@ -264,8 +266,7 @@ void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, sc
     if (!inflow_)
     {
         velocity.emplace(*this, cloud, [&](label i) { return cloud.Up[i].xyz(); });
-        flux_ = 0;
-        for (size_t k = 0; k < areas_.size(); ++k) flux_ -= cloud.stripIntake[firstStrip_ + k];
+        flux_ = outflow(cloud);
     }
     else pressure.emplace(*this, cloud, [&](label i) { return vector(cloud.Up[i][3], 0, 0); });
     const slopeBefore slope(*this, cloud, friction, rho, dt);

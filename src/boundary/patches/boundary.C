@@ -106,6 +106,13 @@ void boundary::setOpenVelocity(particleCloud& cloud, const List<vec4>& friction,
     for (const openFace& face : content_->openFaces) face.followInside(cloud, friction, rho, dt);
 }
 
+bool boundary::outletsAgree(const particleCloud& cloud, scalar rho, scalar dt) const
+{
+    bool all = true;
+    for (const openFace& face : content_->openFaces) all = face.agrees(cloud, rho, dt) && all;
+    return all;
+}
+
 void boundary::updateGhosts(particleCloud& cloud) const
 {
     cloud.clearGhosts();
@@ -200,6 +207,7 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
         const openFace::change change = c.openFaces[k].exchange(cloud, moving);
         b.created += change.created, b.deleted += change.deleted;
         b.flux = c.openFaces[k].flux(), b.volume += b.flux * dt;
+        c.openFaces[k].accept(cloud, c.t0, t1);
     }
     // rounding errors of surfaces would grow: nothing else keeps a flat case flat
     for (label i = cloud.nSolid(); cloud.nDims == 2 && i < cloud.n(); ++i)

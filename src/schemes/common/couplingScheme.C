@@ -15,6 +15,8 @@ namespace
 
 // The scheme halves a step of the user's length, and one that is adjusted, at most this often
 constexpr int mostHalvings = 4, mostShortenings = 12;
+// A step is solved again for its outlets at most this often
+constexpr int mostAsked = 10;
 // An adjusted step over the one before it
 constexpr scalar fastestGrowth = 2;
 // Way of a particle in one step [dx]
@@ -70,7 +72,9 @@ void couplingScheme::advance(scalar t, scalar dt, int depth)
 bool couplingScheme::accepted(scalar t, scalar dt, int halvings, int most)
 {
     const particleCloud before = c_.cloud;
-    const word reason = attempt(t, dt);
+    word reason = attempt(t, dt);
+    for (int k = 0; reason == outletsAsk && k < mostAsked; ++k)
+        c_.cloud = before, reason = attempt(t, dt);
     if (reason.empty()) return true;
     if (halvings == most)
         throw fatalError("Time " + str(t) + " s: a step of " + str(dt) +
@@ -88,6 +92,11 @@ vector couplingScheme::frame() const
     vector sum = vector::Zero();
     for (label i = 0; endless_ && i < c_.cloud.n(); ++i) sum += c_.cloud.Up[i].xyz();
     return sum / scalar(c_.cloud.n());
+}
+
+bool couplingScheme::outletsDiffer(scalar tau) const
+{
+    return c_.walls->hasOpen() && !c_.walls->outletsAgree(c_.cloud, c_.rho, tau);
 }
 
 word couplingScheme::tooFar(scalar dt) const

@@ -326,6 +326,7 @@ word monolithic::attempt(scalar t, scalar dt)
         return reason;
     accept(z);
     energy_.weigh(time_.weight(), [&] { system_.book(start, theta_, springForce_, q_, energy_); });
+    if (outletsDiffer(time_.tau())) return outletsAsk;
     if (const word reason = tooFar(dt); !reason.empty()) return reason;
     account(dt);
     time_.end(cloud, energy_);

@@ -210,6 +210,7 @@ word projection::attempt(scalar t, scalar dt)
         }
     });
     if (!fails.empty()) return fails;
+    if (outletsDiffer(time_.tau())) return outletsAsk;
     if (const word reason = tooFar(dt); !reason.empty()) return reason;
     time_.end(cloud, energy_);
     if (const word reason = tooRough(time_, dt, mean_); !reason.empty()) return reason;

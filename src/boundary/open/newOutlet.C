@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The kinds of outlets that there are.  A new one adds its two lines here
+#include "outlet.H"
+
+namespace ispf
+{
+
+using madeOutlet = std::unique_ptr<outlet>;
+
+namespace
+{
+
+class fixedPressure : public outlet
+{
+public:
+    fixedPressure(const dictionary& dict, const word& caseFolder)
+        : p_(Function1::New("p", dict, caseFolder, dims::pressure))
+    {
+    }
+    scalar pressure(scalar t, scalar) const override { return p_->value(t); }
+
+private:
+    std::unique_ptr<Function1> p_;
+};
+
+madeOutlet newFixedPressure(const dictionary& dict, const word& caseFolder)
+{
+    return std::make_unique<fixedPressure>(dict, caseFolder);
+}
+
+}  // namespace
+
+std::unique_ptr<outlet> outlet::New(const dictionary& dict, const word& caseFolder)
+{
+    using maker = madeOutlet (*)(const dictionary&, const word&);
+    static const std::map<word, maker> kinds = {{"fixedPressure", newFixedPressure}};
+    List<word> names;
+    for (const auto& kind : kinds) names.push_back(kind.first);
+    return kinds.at(dict.chooseOrDefault("outlet", names, "fixedPressure"))(dict, caseFolder);
+}
+
+}  // namespace ispf

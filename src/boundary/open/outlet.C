@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "outlet.H"
+
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+// Share of the flow, and of a small flow, within which the step's flow is that of (4.11)
+constexpr scalar exactness = 1e-4;
+
+}  // namespace
+
+// kept: Q and dQ/dp of the last step, then what the kind remembers
+scalar outletPressure::begin(scalar t, const List<scalar>& kept)
+{
+    t_ = t;
+    if (again_) return p_;  // agrees() has found it
+    tried_ = 0;
+    scalar Q = 0;
+    if (kept.size() >= 2)
+        Q = kept[0], Y_ = kept[1], kind_->restore(List<scalar>(kept.begin() + 2, kept.end()));
+    return p_ = kind_->pressure(t, Q);
+}
+
+bool outletPressure::agrees(scalar Q, const scales& s)
+{
+    if (kind_->slope() == 0) return true;
+    if (tried_ > 0 && p_ != lastP_) Y_ = std::min((Q - lastQ_) / (p_ - lastP_), scalar(0));
+    else if (Y_ == 0) Y_ = s.Y0;
+    const scalar lacks = kind_->pressure(t_, Q) - p_, change = lacks / (1 - kind_->slope() * Y_);
+    again_ = std::abs(Y_ * change) > exactness * (std::abs(Q) + s.Q0);
+    if (!again_) return true;
+    lastP_ = p_, lastQ_ = Q, p_ += change, ++tried_;
+    return false;
+}
+
+List<scalar> outletPressure::accept(scalar t0, scalar t1, scalar Q)
+{
+    again_ = false;
+    kind_->accept(t0, t1, Q);
+    List<scalar> kept = {Q, Y_};
+    for (const scalar s : kind_->state()) kept.push_back(s);
+    return kept;
+}
+
+}  // namespace ispf
