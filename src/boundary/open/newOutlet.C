@@ -7,6 +7,8 @@ namespace ispf
 
 using madeOutlet = std::unique_ptr<outlet>;
 
+madeOutlet newResistance(const dictionary&, const word&);
+
 namespace
 {
 
@@ -33,7 +35,8 @@ madeOutlet newFixedPressure(const dictionary& dict, const word& caseFolder)
 std::unique_ptr<outlet> outlet::New(const dictionary& dict, const word& caseFolder)
 {
     using maker = madeOutlet (*)(const dictionary&, const word&);
-    static const std::map<word, maker> kinds = {{"fixedPressure", newFixedPressure}};
+    static const std::map<word, maker> kinds = {{"fixedPressure", newFixedPressure},
+                                                {"resistance", newResistance}};
     List<word> names;
     for (const auto& kind : kinds) names.push_back(kind.first);
     return kinds.at(dict.chooseOrDefault("outlet", names, "fixedPressure"))(dict, caseFolder);

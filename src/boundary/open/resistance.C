@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What lies behind the face resists the flow:
+//
+//     outside { type open; outlet resistance; p 0; resistance 1e8; }      // p + resistance Q
+//
+// p [Pa] over time is the pressure behind the resistance [Pa s/m^3; Pa s/m^2 in two dimensions].
+#include "outlet.H"
+
+namespace ispf
+{
+
+namespace
+{
+
+class resistance : public outlet
+{
+public:
+    resistance(const dictionary& dict, const word& caseFolder)
+        : p_(Function1::New("p", dict, caseFolder, dims::pressure)),
+          R_(dict.getInRange<scalar>("resistance", 0, 1e30))
+    {
+    }
+    scalar pressure(scalar t, scalar Q) const override { return p_->value(t) + R_ * Q; }
+    scalar slope() const override { return R_; }
+
+private:
+    std::unique_ptr<Function1> p_;
+    scalar R_;
+};
+
+}  // namespace
+
+std::unique_ptr<outlet> newResistance(const dictionary& dict, const word& caseFolder)
+{
+    return std::make_unique<resistance>(dict, caseFolder);
+}
+
+}  // namespace ispf

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Plug flow between slip walls, driven by P, from a face of given pressure to one behind a resistance (doc/theory 4.11):
+//     rho L/H dQ/dt = P - R Q,   Q = P/R (1 - exp(-t/T)),   T = rho L/(H R)
+#include "boxCase.H"
+#include "core/errorOf.H"
+#include "relative.H"
+
+#include <doctest/doctest.h>
+
+using namespace ispf;
+
+namespace
+{
+
+const word slips = "type wall; slip yes;";
+constexpr scalar P = 2, rho = 1000;
+
+boxCase channel(const word& coupling, scalar R)
+{
+    boxCase box;
+    box.nx = 16, box.ny = 8, box.coupling = coupling;
+    box.patch = {"type open; p 2; backflow 0;",
+                 "type open; outlet resistance; p 0; resistance " + str(R, 17) + ";", slips, slips};
+    return box;
+}
+
+scalar flow(const fsiCase& c)
+{
+    return c.cloud.history.at("outlet right").at(0);
+}
+
+// Largest p that the strip of the resistance was given, there is no slope to speak of
+scalar pressureBeyond(const fsiCase& c, scalar length)
+{
+    scalar most = -1e30;
+    for (label i = 0; i < c.cloud.n(); ++i)
+        if (c.cloud.x[i][0] > length && c.cloud.pFixed[i]) most = std::max(most, c.cloud.pGiven[i]);
+    return most;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "flow through a resistance: at rest, on its way and from any step, however large the "
+    "resistance")
+{
+    for (const word coupling : {"projection", "monolithic"})
+        for (const scalar ofInertia : {0.1, 1.0, 1e3, 1e7})
+        {
+            CAPTURE(coupling);
+            CAPTURE(ofInertia);
+            constexpr scalar dt = 0.01;
+            boxCase box = channel(coupling, 1);
+            const scalar inertance = rho * box.length() / box.height(),
+                         R = ofInertia * inertance / dt;
+            box = channel(coupling, R);
+            runningBox run(box, "outlet");
+            scalar Q = 0;
+            for (int step = 0; step < 20; ++step)
+            {
+                run.run(dt, 1);
+                Q = (Q * inertance + dt * P) / (inertance + dt * R);  // backward Euler
+                // the first step does not know yet with which slope p goes on in the strip
+                const scalar small = 0.1 * dt * P / (inertance + dt * R) + 1e-9;
+                CHECK(std::abs(flow(run.c) - Q) < 0.02 * Q + small);
+                if (step > 2)
+                    CHECK(std::abs(pressureBeyond(run.c, box.length()) - R * Q) < 0.04 * P);
+            }
+        }
+}
+
+TEST_CASE("a quarter of a face has a quarter of the flow: the resistance is that of the whole")
+{
+    boxCase box = channel("monolithic", 2e5);
+    box.patch[boxCase::bottom] = "type symmetryPlane;";
+    runningBox half(box, "outletHalf");
+    half.run(0.01, 40);
+    box = channel("monolithic", 2e5);
+    box.ny = 16;
+    runningBox whole(box, "outletWhole");
+    whole.run(0.01, 40);
+    CHECK(flow(half.c) == relative(flow(whole.c), 0.01));
+}
+
+TEST_CASE(
+    "an outlet of no kind that there is, or a resistance that pushes, is refused with what would "
+    "be right")
+{
+    const auto begin = [](const word& entries) {
+        boxCase box = channel("monolithic", 1);
+        box.patch[boxCase::right] = "type open; p 0; " + entries;
+        runningBox run(box, "outletWrong");
+    };
+    CHECK_ERROR(begin("outlet resistence;"), "resistance", 0);
+    CHECK_ERROR(begin("outlet resistance; resistance -1;"), "resistance", 0);
+    CHECK_ERROR(begin("resistance 1;"), "resistance", 0);  // without effect
+}
