@@ -20,6 +20,7 @@ made newPlaneMap(const word&, const dictionary&, const fsiCase&);
 made newProbes(const word&, const dictionary&, const fsiCase&);
 made newSurfaceLeaks(const word&, const dictionary&, const fsiCase&);
 made newSurfaceSample(const word&, const dictionary&, const fsiCase&);
+made newVolFieldValue(const word&, const dictionary&, const fsiCase&);
 made newZoneDiameter(const word&, const dictionary&, const fsiCase&);
 
 std::unique_ptr<functionObject> functionObject::New(const word& name, const dictionary& dict,
@@ -39,6 +40,7 @@ std::unique_ptr<functionObject> functionObject::New(const word& name, const dict
                                                 {"probes", newProbes},
                                                 {"surfaceLeaks", newSurfaceLeaks},
                                                 {"surfaceSample", newSurfaceSample},
+                                                {"volFieldValue", newVolFieldValue},
                                                 {"zoneDiameter", newZoneDiameter}};
     List<word> names;
     for (const auto& t : types) names.push_back(t.first);
