@@ -5,7 +5,7 @@
 # objects of doc/guide/functionObjects.md run in that case and in inflatedVessel, and write the columns that it shows
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
-guide=${GUIDE:-$ispfRoot/doc/guide}
+guide=$ispfRoot/doc/guide
 
 # blocks page: writes block.<n>.sh for each bash block and block.<n>.text for the text block behind it
 blocks() {
@@ -66,4 +66,28 @@ for t in block.*.text; do
 $missing"
 done
 [ -s reader/flap/flap.png ] || fail "no picture"
+
+# every type has a heading, an example and a picture
+page=$guide/functionObjects.md
+types=$(grep -oE '\{"[A-Za-z]+", new' "$ispfRoot/src/functionObjects/list/newFunctionObject.C" | grep -oE '[A-Za-z]{4,}')
+for type in $types; do
+    grep -qx "## $type" "$page" || fail "functionObjects.md has no heading $type"
+    grep -qE "^ +type +$type;" "$page" || fail "functionObjects.md has no example of $type"
+    grep -q "(pictures/$type.png)" "$page" || fail "functionObjects.md has no picture of $type"
+done
+for picture in $(grep -ohE '\(pictures/[^)]*' "$guide"/*.md | tr -d '('); do
+    [ -s "$guide/$picture" ] || fail "$picture is not there"
+done
+# the examples run, and their files begin as the page shows
+"$guide/pictures/runs" "$scratch/measured" shortened > runs.log 2>&1 || fail "doc/guide/pictures/runs: $(tail -n 5 runs.log)"
+shown=0
+while read -r file; do
+    shown=$((shown+1))
+    awk -v begin="\`\`\`text $file" '/^```/ { on = $0 == begin; next } on && /^#/' "$page" > expected
+    f=measured/$(sed 's,/0\.3/,/0/,' <<< "$file")
+    grep '^#' "$f" > found; [ -s expected ] || fail "$file: the page shows no heads"
+    diff -b <(tr -s ' \t' ' ' < expected) <(tr -s ' \t' ' ' < found) > differ || fail "$file: shown (left), written (right)
+$(cat differ)"
+done < <(awk '/^```text / { print $2 }' "$page")
+[ "$shown" -gt 14 ] || fail "functionObjects.md shows $shown files"
 [ $failures = 0 ]
