@@ -59,7 +59,8 @@ for b in block.*.sh; do
     echo "exec > $scratch/${b%.sh}.out"; cat "$b"
     echo "[ \$? = 0 ] || { echo '$b' >> $scratch/failed; exit 1; }"
 done > all.sh
-(cd reader && bash ../all.sh 2> ../err) || fail "first-case.md, $(cat failed 2> /dev/null): $(cat "$(tail -n 1 failed)"; tail -n 5 err)"
+(cd reader && bash ../all.sh 2> ../err) || fail "first-case.md, $(cat failed 2> /dev/null): $(cat "$(tail -n 1 failed)"; tail -n 8 err)"
+[ $failures = 0 ] || exit 1
 for t in block.*.text; do
     missing=$(printed "$t" "${t%.text}.out")
     [ -z "$missing" ] || fail "first-case.md shows, and $(head -n 1 "${t%.text}.sh") does not print:
