@@ -260,6 +260,31 @@ TEST_CASE("patchFlux through a surface: exact for linear velocity, times the sym
     CHECK(half[2] == relative(0.5));
 }
 
+TEST_CASE("patchFlux in two dimensions: per metre, and exact of a parabola over one long facet")
+{
+    testCase t;
+    t.nDims = 2;
+    for (int j = 0; j < 12; ++j)
+        for (int i = 0; i < 12; ++i) t.add("chamber", "fluid", t.dx * vector(i + 0.5, j + 0.5, 0));
+    t.functions = "q { type patchFlux; surface line; }";
+    triSurface line;  // a slice at x = 6 mm, as deep as dx
+    const scalar high = 12 * t.dx;
+    const vector x(6 * t.dx, 0, 0), up(0, high, 0), z(0, 0, t.dx);
+    line.add(x, x + up, x + up + z, line.addPatch("line"));
+    line.add(x, x + up + z, x + z, 0);
+    auto r = t.start();
+    std::filesystem::create_directories(t.path + "/constant/triSurface");
+    writeSTL(line, t.path + "/constant/triSurface/line.stl");
+    particleCloud& cloud = r.c->cloud;
+    for (label i = 0; i < cloud.n(); ++i)
+        cloud.Up[i][0] = 4 * cloud.x[i][1] * (high - cloud.x[i][1]) / (high * high);
+    functionObjectList f(*r.c);
+    f.start();
+    const auto q = t.rows("q/0/patchFlux.dat").at(0);
+    CHECK(std::abs(q[1]) == relative(2.0 / 3 * high, 0.02));
+    CHECK(q[2] == 1);
+}
+
 TEST_CASE("patchFlux of a boundary patch: from its books, out is positive")
 {
     testCase t;

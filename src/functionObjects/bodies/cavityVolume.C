@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Volume enclosed by a surface that the solid carries along, closed over its opening; of the whole
-// body where symmetry planes cut it [m3].  surface: constant/triSurface/<surface>.stl, see
+// body where symmetry planes cut it [m3; m2 in two dimensions].  surface: constant/triSurface/<surface>.stl, see
 // trackedSurface.H.
 //
 //     cavity { type cavityVolume; surface wall_to_chamber; }
@@ -26,7 +26,8 @@ public:
           surface_(dict.get<word>("surface"), c, dict.where("surface")),
           rest_(surface_.restVolume()),
           file_(table("cavityVolume.dat",
-                      {"Volume inside " + surface_.name() + ", of the whole body [m3]",
+                      {"Volume inside " + surface_.name() + ", of the whole body [" +
+                           word(c.cloud.nDims == 3 ? "m3]" : "m2]"),
                        "at rest: " + str(rest_, 9)},
                       {"volume", "change", "changeOverRest"}, 9))
     {

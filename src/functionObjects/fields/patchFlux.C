@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Volume flow, of the whole body where symmetry planes cut it [m3/s]:
+// Volume flow, of the whole body where symmetry planes cut it [m3/s; m2/s in two dimensions]:
 //
 //     outflow { type patchFlux; patch outside; }      // a patch of constant/boundary
 //     nozzle  { type patchFlux; surface nozzleExit; zones (chamber); }   // any surface in the fluid
@@ -10,12 +10,13 @@
 //     part of an open face has `created` and `deleted`.  Of a cyclic patch: the fluid that passes, positive along the
 //     separation.  Walls that stand and symmetry planes pass nothing: zero.
 // surface: the integral of U.n over constant/triSurface/<surface>.stl, U fitted to the particles at
-//     the middle of each triangle; positive along the triangles' normals.  `covered` is the share of
+//     the middle of triangles no longer than dx; positive along their normals; in two dimensions per metre along z.  `covered` is the share of
 //     its area that particles are near enough to; the rest counts nothing.
 #include "functionObject.H"
 
 #include "dataFile.H"
 #include "fieldSampler.H"
+#include "surfaceRefinement.H"
 #include "trackedSurface.H"
 #include <cmath>
 
@@ -71,6 +72,10 @@ public:
               {"flux", "covered"}, 9))
     {
         if (!(surface_.area() > 0)) dict.fail("surface", "This surface has no area.");
+        surface_.weld(1e-3 * c.cloud.dx);
+        refine(surface_, c.cloud.dx);
+        const boundBox box = surface_.bounds();
+        if (c.cloud.nDims == 2) depth_ = box.max[2] - box.min[2];
         for (label t = 0; t < surface_.size(); ++t) centres_.push_back(surface_.centre(t));
     }
 
@@ -85,12 +90,13 @@ public:
             flux += U.dot(area), covered += area.norm();
         }
         file_.begin(case_.time.value())
-            << flux * case_.walls->symmetryFactor() << covered / surface_.area();
+            << flux / depth_ * case_.walls->symmetryFactor() << covered / surface_.area();
         file_.endRow();
     }
 
 private:
     triSurface surface_;
+    scalar depth_ = 1;  // along z of the slice in two dimensions [m]
     List<vector> centres_;
     particleField U_;
     fieldSampler sampler_;
