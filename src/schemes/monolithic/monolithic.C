@@ -314,7 +314,7 @@ word monolithic::attempt(scalar t, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
     time_.start(cloud, t, dt);
-    c_.updateNeighbours(time_.times());
+    c_.time.stages.in("neighbours", [&] { c_.updateNeighbours(time_.times()); });
     system_.setStep(t, t + dt);
     energy_.begin(time_.startPlaces(cloud));
     structureState();
@@ -322,8 +322,10 @@ word monolithic::attempt(scalar t, scalar dt)
     time_.begin(cloud);
     const List<vec4> start(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
     List<scalar> z;
-    if (const word reason = atTime(t + dt, [&] { return solve(dt, z); }); !reason.empty())
-        return reason;
+    const word fails = atTime(t + dt, [&] {
+        return c_.time.stages.in("velocity and pressure", [&] { return solve(dt, z); });
+    });
+    if (!fails.empty()) return fails;
     accept(z);
     energy_.weigh(time_.weight(), [&] { system_.book(start, theta_, springForce_, q_, energy_); });
     if (const word reason = tooFar(dt); !reason.empty()) return reason;

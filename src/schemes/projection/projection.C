@@ -174,8 +174,9 @@ void projection::solve(const stencil& s, scalar dt)
     if (density_.on() && !c_.walls->hasCyclic())
         density_.addTo(q, step_.pair(), drainedFluid(cloud, c_.list, closed), dt);
     List<vec4> spring;
-    step_.predict(cloud, s, accelerations(slope_, spring), dt);
-    step_.project(cloud, s, q, c_.kernel->support(), dt);
+    c_.time.stages.in("velocity",
+                      [&] { step_.predict(cloud, s, accelerations(slope_, spring), dt); });
+    c_.time.stages.in("pressure", [&] { step_.project(cloud, s, q, c_.kernel->support(), dt); });
     energy_.weigh(time_.weight(), [&] {
         step_.book(cloud, dt, energy_);
         energy_[energyLedger::forces] -= energy_.bookSprings(spring, dt);
@@ -192,7 +193,8 @@ word projection::attempt(scalar t, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
     time_.start(cloud, t, dt);
-    c_.updateNeighbours(time_.times(), fractionalStep::behind(cloud));
+    c_.time.stages.in("neighbours",
+                      [&] { c_.updateNeighbours(time_.times(), fractionalStep::behind(cloud)); });
     hydrostatic_.setStep(t, t + dt);
     slope_ = c_.walls->pressureSlope();
     energy_.begin(time_.startPlaces(cloud));
