@@ -41,11 +41,6 @@ fsiCase::fsiCase(Time& t) : time(t)
     readStructure();
     coupling = solution.chooseOrDefault("coupling", {"projection", "monolithic"},
                                         structure ? "monolithic" : "projection");
-    // what the other scheme reads may stay: one word changes the coupling
-    for (const char* name : {"projection", "solvers", "monolithic"})
-        if (const dictionary* d = solution.findDict(name);
-            d && (coupling == "monolithic") != (word(name) == "monolithic"))
-            d->markAllRead();
 }
 
 void fsiCase::readBoundary()

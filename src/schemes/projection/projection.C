@@ -34,18 +34,35 @@ namespace
 // Entry of cloud.history: slope of p along cyclic patches in the last step, if it is not zero [Pa/m]
 const word slopeOfStep = "pressureSlope";
 
+struct projectionEntries
+{
+    dictionary dict;
+    bool explicitViscosity, mean;
+    projectionLimits limits;
+
+    explicit projectionEntries(const fsiCase& c)
+        : dict(c.solution.subOrEmptyDict("projection")),
+          explicitViscosity(dict.chooseOrDefault("viscosity", {"implicit", "explicit"},
+                                                 "implicit") == "explicit"),
+          mean(dict.chooseOrDefault("positionUpdate", {"symplectic", "mean"}, "symplectic") ==
+               "mean"),
+          limits(c, explicitViscosity, mean, dict.subOrEmptyDict("limits"))
+    {
+    }
+};
+
 class projection : public couplingScheme
 {
 public:
-    explicit projection(fsiCase& c)
+    explicit projection(fsiCase& c) : projection(c, projectionEntries(c)) {}
+
+    projection(fsiCase& c, const projectionEntries& e)
         : couplingScheme(c),
-          dict_(c.solution.subOrEmptyDict("projection")),
-          explicit_(dict_.chooseOrDefault("viscosity", {"implicit", "explicit"}, "implicit") ==
-                    "explicit"),
-          mean_(dict_.chooseOrDefault("positionUpdate", {"symplectic", "mean"}, "symplectic") ==
-                "mean"),
+          dict_(e.dict),
+          explicit_(e.explicitViscosity),
+          mean_(e.mean),
           time_(c),
-          limits_(c, explicit_, mean_, dict_.subOrEmptyDict("limits")),
+          limits_(e.limits),
           step_(c.rho, c.mu, explicit_ ? "explicit" : "implicit", c.solution, time_.secondOrder()),
           shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c),
                     shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx)),
@@ -228,6 +245,12 @@ word projection::attempt(scalar t, scalar dt)
 }
 
 }  // namespace
+
+void checkProjectionEntries(const fsiCase& c)
+{
+    projectionEntries{c};
+    fractionalStep(c.rho, c.mu, "implicit", c.solution);
+}
 
 std::unique_ptr<couplingScheme> newProjection(fsiCase& c)
 {
