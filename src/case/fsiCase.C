@@ -191,9 +191,9 @@ void fsiCase::readStructure()
     if (walls->hasCyclic()) bodies_ = freeBodies(structure->tangentPattern(), cloud.uFixed);
 }
 
-scalar fsiCase::stepEnd() const
+scalar fsiCase::stepEnd(scalar now) const
 {
-    const scalar now = time.value(), end = now + time.deltaT();
+    const scalar end = now + time.deltaT();
     return time.endTime() > now ? std::min(end, time.endTime()) : end;
 }
 

@@ -97,9 +97,8 @@ public:
         volume_ = std::make_unique<volumeConstraint>(*c.structure);
     }
 
-    stepLimit limit() const override;
-
 private:
+    stepLimit admitted() const override;
     word attempt(scalar t, scalar dt) override;
     void keep() override { preconditioner_.keep(c_.cloud); }
     word advice() const override;
@@ -155,12 +154,11 @@ scalar monolithic::rounding(scalar dt, const List<scalar>& z) const
 }
 
 // No limit of stability; where the step is adjusted, the fluid's motion rules it for accuracy
-couplingScheme::stepLimit monolithic::limit() const
+couplingScheme::stepLimit monolithic::admitted() const
 {
-    c_.walls->setStep(c_.time.value(), c_.stepEnd());
     const scalar u = velocityScale();
     if (!c_.time.adjustTimeStep() || u == 0) return {1e30, "no"};
-    return adjusted({0.4 * c_.kernel->h() / u, "CFL"});
+    return {0.4 * c_.kernel->h() / u, "CFL"};
 }
 
 void monolithic::structureState()

@@ -84,9 +84,8 @@ public:
                << std::endl;
     }
 
-    stepLimit limit() const override;
-
 private:
+    stepLimit admitted() const override;
     word attempt(scalar t, scalar dt) override;
     void keep() override { limits_.keep(c_.cloud); }
 
@@ -108,11 +107,10 @@ private:
     vector slope_ = vector::Zero();  // of p along cyclic patches with a pressureDrop [Pa/m]
 };
 
-couplingScheme::stepLimit projection::limit() const
+couplingScheme::stepLimit projection::admitted() const
 {
-    c_.walls->setStep(c_.time.value(), c_.stepEnd());
     List<vec4> spring;
-    return adjusted(limits_.ruling(accelerations(c_.walls->pressureSlope(), spring)));
+    return limits_.ruling(accelerations(c_.walls->pressureSlope(), spring));
 }
 
 // Body force of the zone, springs, Eq. (2) of the paper, and the slope of p along cyclic patches
