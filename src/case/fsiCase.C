@@ -41,11 +41,6 @@ fsiCase::fsiCase(Time& t) : time(t)
     readStructure();
     coupling = solution.chooseOrDefault("coupling", {"projection", "monolithic"},
                                         structure ? "monolithic" : "projection");
-    // what the other scheme reads may stay: one word changes the coupling
-    for (const char* name : {"projection", "solvers", "monolithic"})
-        if (const dictionary* d = solution.findDict(name);
-            d && (coupling == "monolithic") != (word(name) == "monolithic"))
-            d->markAllRead();
 }
 
 void fsiCase::readBoundary()
@@ -196,9 +191,9 @@ void fsiCase::readStructure()
     if (walls->hasCyclic()) bodies_ = freeBodies(structure->tangentPattern(), cloud.uFixed);
 }
 
-scalar fsiCase::stepEnd() const
+scalar fsiCase::stepEnd(scalar now) const
 {
-    const scalar now = time.value(), end = now + time.deltaT();
+    const scalar end = now + time.deltaT();
     return time.endTime() > now ? std::min(end, time.endTime()) : end;
 }
 

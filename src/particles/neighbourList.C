@@ -93,9 +93,13 @@ struct rowBuilder
     {
     }
 
-    void row(label i)
+    void clear()
     {
         for (int g = 0; g < 4; ++g) found[g].clear(), r2[g].clear();
+    }
+
+    void row(label i)
+    {
         const vec4& xi = cloud.x[i];
         const float q[3] = {float(xi[0] - grid.low[0]), float(xi[1] - grid.low[1]),
                             float(xi[2] - grid.low[2])};
@@ -156,7 +160,7 @@ struct rowBuilder
 }  // namespace
 
 void neighbourList::build(const particleCloud& cloud, const smoothingKernel& kernel,
-                          const visibility& visible)
+                          const visibility& visible, const List<char>& wanted)
 {
     const label n = cloud.n();
     start.assign(n + 1, 0), own.assign(n, 0), mid.assign(n, 0), wall.assign(n, 0), index.clear(),
@@ -166,8 +170,7 @@ void neighbourList::build(const particleCloud& cloud, const smoothingKernel& ker
     grid.build(cloud.x, kernel.support());
     List<char> given(cloud.nAll(), 0);
     for (label j = 0; j < cloud.nAll(); ++j)
-        if (const label owner = cloud.ownerOf(j); owner >= 0)
-            given[j] = cloud.velocityGiven(owner);
+        if (const label owner = cloud.ownerOf(j); owner >= 0) given[j] = cloud.velocityGiven(owner);
 
     constexpr label blockRows = 512;
     const label nBlocks = (n + blockRows - 1) / blockRows;
@@ -179,7 +182,8 @@ void neighbourList::build(const particleCloud& cloud, const smoothingKernel& ker
             for (label b = begin; b < end; ++b)
                 for (label i = b * blockRows; i < std::min(n, (b + 1) * blockRows); ++i)
                 {
-                    rows.row(i);
+                    rows.clear();
+                    if (wanted.empty() || wanted[i]) rows.row(i);
                     rows.append(part[b]);
                 }
         },

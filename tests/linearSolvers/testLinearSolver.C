@@ -114,7 +114,7 @@ TEST_CASE("unsymmetric systems: the methods that can, and the refusal of those t
               }).find("symmetric") != word::npos);
 }
 
-TEST_CASE("a wrong word lists the valid ones; keys of other choices are passed over")
+TEST_CASE("a wrong word lists the valid ones; keys of other choices are refused")
 {
     word text = messageOf([] { linearSolver::New("p", entries("solver PCGG;")); });
     for (const word& valid : iterative) CHECK(text.find(valid) != word::npos);
@@ -126,9 +126,13 @@ TEST_CASE("a wrong word lists the valid ones; keys of other choices are passed o
     });
     CHECK(text.find("cycle V") != word::npos);
 
-    const dictionary d = entries("solver direct; preconditioner DIC; tolerance 1e-6; cycle K;");
-    linearSolver::New("p", d);
-    d.checkAllRead();
+    for (const char* useless :
+         {"solver direct; preconditioner DIC;", "solver direct; tolerance 1e-6;",
+          "solver PCG; preconditioner DIC; cycle K;",
+          "solver PBiCGStab; preconditioner none; coarsestSize 9;",
+          "solver PCG; preconditioner multigrid; restart 30;"})
+        CHECK(messageOf([&] { linearSolver::New("p", entries(useless)); }).find("no effect") !=
+              word::npos);
     const dictionary wrong = entries("solver direct; tolerence 1e-6;");
     linearSolver::New("p", wrong);
     CHECK_THROWS_AS(wrong.checkAllRead(), fatalError);

@@ -28,12 +28,20 @@ check() { # what the run is called
     # times and steps are those of the run
     [ "$(extract Time '^Time = ' 'Time = ' | awk '{ printf "%s ", $2 }')" = "0.01 0.02 0.03 0.04 " ] || fail "$1: times"
     [ "$(tail -n 1 log)" = End ] || fail "$1: End"
+    # what each stage and function object has taken, all of it together
+    sed -n '/^Time by the clock/,/^$/p' log > table
+    for stage in start neighbours "rest of the steps" "function object speed"; do
+        grep -qE "^    $stage +[0-9.]+ s +[0-9.]+ %$" table || fail "$1: no time of $stage: $(cat table)"
+    done
+    awk '/^    / && !/together/ { s += $(NF - 3); share += $(NF - 1) } /together/ { whole = $(NF - 3) }
+        END { exit !((s - whole)^2 < 0.1^2 && (share - 100)^2 < 1) }' table || fail "$1: what does not add up: $(cat table)"
 }
 for case in "piston projection" "piston monolithic" "membrane monolithic"; do
     read -r template coupling <<< "$case"
     newCase "$template" "$template-$coupling"; place
     setEntry system/controlDict endTime 0.04; setEntry system/controlDict deltaT 0.01
     setEntry system/sphSolution coupling "$coupling"
+    echo "functions { speed { type minMax; fields (U); } }" >> system/controlDict
     solved
     check "$case"
 done

@@ -107,7 +107,25 @@ with $solution "solvers { p { $p tolerance 1; } }" "'tolerance' is 1, but must l
 with $solution "solvers { p { $p relTol 1; } }" "'relTol' is 1, but must lie between 0 and 0.5"
 with $solution "solvers { p { $p maxIter 0; } }" "'maxIter' is 0, but must lie between 1 and"
 with $solution "solvers { p { $p maxIter 2.5; } }" "'maxIter' should be a whole number"
-setEntry $solution coupling monolithic
+# entries that act on nothing: of other words, and what neither coupling reads, whichever is chosen
+for coupling in projection monolithic; do
+    setEntry $solution coupling $coupling
+    with $solution "solvers { p { $p restart 30; } }" "It has no effect with solver PCG"
+    with $solution "solvers { p { $p cycle K; } }" "It has no effect with preconditioner DIC"
+    with $solution "solvers { p { solver direct; tolerance 1e-6; } }" "It has no effect with solver direct"
+    with $solution "solvers { pFinal { $p } }" "sphSolution.solvers.pFinal at line 2"
+    with $solution "projection { gradient corrected; divergence standard; }" "Nothing reads the entry '(gradient|divergence)'"
+    with $solution "projection { viscosity none; }" "Valid .*s are: explicit implicit"
+    with $solution "monolithic { tolerence 1e-3; }" "Nothing reads the entry 'tolerence'.*Did you mean 'tolerance'"
+    with $solution "monolithic { solid { solver direct; } }" "sphSolution.monolithic.solid at line 2"
+    cp $solution kept
+    echo "projection { viscosity implicit; } monolithic { tolerance 1e-3; } solvers { U { solver PCG; } }" >> $solution
+    solved
+    # the tolerance of U is 1e-8 also where its dictionary does not say so
+    awk -v c=$coupling '/Solving for U,/ { gsub(",", ""); ++n; if ($12 > 1e-8) bad = 1 }
+        END { exit bad || (n > 0) != (c == "projection") }' log || fail "solvers.U: $(grep 'Solving for U' log)"
+    mv kept $solution
+done
 with $solution "monolithic { tolerance 0.9; }" "'tolerance' is 0.9, but must lie between 1e-14 and 0.1"
 with $solution "monolithic { maxIter -3; }" "'maxIter' is -3, but must lie between 1 and"
 with $solution "monolithic { solid { refactorInterval -4; } }" "'refactorInterval' is -4, but must lie between"

@@ -42,6 +42,32 @@ grep -q '^   \*Layers' log.3 && grep -q '^Particles OK\.$' log.3 || fail "one la
 grep -q '^Failed 1 check\.$' log.2 || fail "two layers too few"
 grep -q 'Time per step .* s by the clock' log.4 && grep -q '^    Memory' log.4 || fail "no prediction"
 
+# ---- a zone's volume is its own, without what fills the strips beyond open faces -----------------------
+tank 4; generateParticles > log.generate 2>&1
+checkParticles -steps 0 > log.zones 2>&1
+awk '$1 == "water" && $2 == "fluid" { found = ($4 > 0 && ($5/(0.03*0.016) - 1)^2 < 0.01^2) } END { exit !found }' log.zones ||
+    fail "volume of a zone before an open face: $(cat log.zones)"
+
+# ---- the steps that a run will take, by what is given then: those of the run, within 1.5 --------------------
+for coupling in projection monolithic; do
+    mkdir -p "$scratch/pulse.$coupling"/{system,constant}; cd "$scratch/pulse.$coupling" || exit 1
+    echo "dx 0.5e-3; nDims 2; zones { blood { phase fluid; shape box; min (0 0 0); max (10e-3 5e-3 0); } }" > system/particleDict
+    echo "walls { type wall; slip yes; } out { type open; point (10e-3 0 0); normal (1 0 0); p 0; }
+        in { type open; point (0 0 0); normal (-1 0 0); profile flat;
+             velocity { type table; values ((0 0.01) (0.1 0.2) (0.2 0.2) (0.3 0.01)); } }" > constant/boundary
+    echo "rho 1060; mu 3.5e-3;" > constant/physicalProperties
+    echo "coupling $coupling;" > system/sphSolution; : > system/sphSchemes
+    echo "endTime 0.3; deltaT 5e-3; adjustTimeStep yes; writeControl none;" > system/controlDict
+    generateParticles > log.generate 2>&1 || fail "generateParticles: $(cat log.generate)"
+    checkParticles > log.check 2>&1 || fail "$coupling: $(cat log.check)"
+    ispfFsiFoam > log.run 2>&1 || fail "$coupling: $(tail -n 3 log.run)"
+    predicted=$(sed -nE 's/.*: about ([^ ]+) steps of .*the shortest .* by the CFL limit.*/\1/p' log.check)
+    taken=$(grep -c '^Time = ' log.run)
+    awk -v a="${predicted:-0}" -v b="$taken" 'BEGIN { exit !(b > 100 && a < 1.5*b && b < 1.5*a) }' ||
+        fail "$coupling: $taken steps, '$predicted' predicted: $(grep endTime log.check)"
+done
+cd "$scratch" || exit 1
+
 checkParticles -steps 0 | grep -q 'Time per step' && fail "-steps 0 makes steps"
 for steps in -1 2.5 many; do checkParticles -steps $steps > out 2>&1 && fail "-steps $steps is accepted"; done
 refused() { # what it says, what is wrong

@@ -70,6 +70,31 @@ word advance(Time& time, couplingScheme& coupling)
     }
 }
 
+void timeLoop(Time& time, fsiCase& c, couplingScheme& coupling, volumeLedger& ledger,
+              functionObjectList& functions)
+{
+    progress bar(time);
+    bool unresolved = false;  // once is enough to say so
+    functions.start();
+    while (time.run())
+    {
+        unresolved = unresolved || isUnresolved(c);
+        const word rule = advance(time, coupling);
+        ledger.update(time.deltaT());
+        ledger.writeLine();
+        coupling.writeEnergy();
+        c.walls->printBalance(c.cloud);
+        functions.execute();
+        if (time.writeTime()) time.stages.in("writing", [&] { c.write(); });
+
+        info() << "ExecutionTime = " << str(time.elapsedCpuTime(), 4)
+               << " s  ClockTime = " << str(time.elapsedClockTime(), 4) << " s\n\n";
+        bar.update(rule);
+        time.rereadIfModified();
+    }
+    functions.end();
+}
+
 int run(const argList& args)
 {
     Time::stopOnSignals();
@@ -81,28 +106,10 @@ int run(const argList& args)
     volumeLedger ledger(c);
     c.report();
     functionObjectList functions(c);
-    progress bar(time);
-    bool unresolved = false;  // once is enough to say so
 
     info() << time.remarkOnSteps() << "\nStarting time loop\n\n";
-    functions.start();
-    while (time.run())
-    {
-        unresolved = unresolved || isUnresolved(c);
-        const word rule = advance(time, *coupling);
-        ledger.update(time.deltaT());
-        ledger.writeLine();
-        coupling->writeEnergy();
-        c.walls->printBalance(c.cloud);
-        functions.execute();
-        if (time.writeTime()) c.write();
-
-        info() << "ExecutionTime = " << str(time.elapsedCpuTime(), 4)
-               << " s  ClockTime = " << str(time.elapsedClockTime(), 4) << " s\n\n";
-        bar.update(rule);
-        time.rereadIfModified();
-    }
-    functions.end();
+    time.stages.in("rest of the steps", [&] { timeLoop(time, c, *coupling, ledger, functions); });
+    info() << time.stages.table() << "\n";
     info() << "End\n";
     return time.exitStatus();
 }

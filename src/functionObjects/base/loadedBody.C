@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "loadedBody.H"
 
-#include "surfaceRefinement.H"
-
 #include <filesystem>
 
 namespace ispf
@@ -11,33 +9,11 @@ namespace ispf
 namespace
 {
 
-constexpr scalar longestEdge = 1.5;  // [dx] the fluid is looked at in the middle of each triangle
-
 List<char> allFluid(const particleCloud& cloud)
 {
     List<char> zones;
     for (const zoneInfo& z : cloud.zones) zones.push_back(z.phase == phaseType::fluid);
     return zones;
-}
-
-void prepare(triSurface& s, scalar dx)
-{
-    s.weld(1e-4 * dx);
-    refine(s, longestEdge * dx);
-}
-
-// In two dimensions the triangles of a slice stand for lengths in the plane z = 0
-List<facet> facetsOf(const triSurface& s, int nDims)
-{
-    const boundBox box = s.bounds();
-    List<facet> facets;
-    for (label t = 0; t < s.size(); ++t)
-    {
-        facet f = {s.centre(t), s.areaVector(t)};
-        if (nDims == 2) f.centre[2] = f.area[2] = 0, f.area /= box.max[2] - box.min[2];
-        facets.push_back(f);
-    }
-    return facets;
 }
 
 }  // namespace
@@ -55,7 +31,6 @@ loadedBody loadedBody::surface(const word& name, const fsiCase& c, const fileLoc
 {
     loadedBody b(name, c);
     b.rest_ = readSurface(name, c, where);
-    prepare(b.rest_, c.cloud.dx);
     b.parts_.push_back({nullptr, allFluid(c.cloud)});
     return b;
 }
@@ -89,9 +64,8 @@ loadedBody loadedBody::solid(const word& zone, const fsiCase& c, const fileLocat
     return b;
 }
 
-List<loadedBody::side> loadedBody::sides() const
+void loadedBody::eachSide(const std::function<void(triSurface, const List<char>&)>& visit) const
 {
-    List<side> all;
     for (const part& p : parts_)
     {
         triSurface s = rest_;
@@ -101,26 +75,39 @@ List<loadedBody::side> loadedBody::sides() const
             s = p.tracked->now();
             s.flip();  // its normals point into the fluid
         }
-        if (isWall_)
-        {
-            s = case_->walls->surfaceOf(name_, case_->cloud);
-            prepare(s, case_->cloud.dx);
-        }
-        all.push_back(measured(s, p.zones));
+        if (isWall_) s = case_->walls->surfaceOf(name_, case_->cloud);
+        visit(s, p.zones);
         if (!isWall_ || !case_->walls->isTwoSided(name_)) continue;
         s.flip();
-        all.push_back(measured(s, p.zones));
+        visit(std::move(s), p.zones);
     }
+}
+
+List<loadedBody::side> loadedBody::sides() const
+{
+    List<side> all;
+    eachSide([&](triSurface s, const List<char>& zones) {
+        known_.resize(std::max(known_.size(), all.size() + 1));
+        auto& [nodes, facets] = known_[all.size()];
+        if (nodes != s.nodes)
+        {
+            nodes = s.nodes;
+            facets = facetsOf(std::move(s), case_->cloud.dx, case_->cloud.nDims);
+        }
+        all.push_back({facets, surfaceFit(*case_, zones, facets).of(facets)});
+    });
     return all;
 }
 
-loadedBody::side loadedBody::measured(triSurface s, const List<char>& zones) const
+List<loadedBody::triangulation> loadedBody::triangulated() const
 {
-    side result;
-    result.facets = facetsOf(s, case_->cloud.nDims);
-    result.fluid = surfaceFit(*case_, zones).at(result.facets);
-    result.surface = std::move(s);
-    return result;
+    List<triangulation> all;
+    eachSide([&](triSurface s, const List<char>& zones) {
+        prepare(s, case_->cloud.dx);
+        const List<facet> facets = trianglesOf(s, case_->cloud.nDims);
+        all.push_back({{facets, surfaceFit(*case_, zones, facets).of(facets)}, std::move(s)});
+    });
+    return all;
 }
 
 tensor viscousStress(const fluidAt& f, scalar mu)

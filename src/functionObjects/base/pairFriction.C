@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pairFriction.H"
 
+#include "pointGrid.H"
 #include "sphc.H"
 #include "surfaceSearch.H"
 
@@ -9,6 +10,35 @@ namespace ispf
 
 namespace
 {
+
+// A rigid particle, or an image that does not move as its position is mirrored
+bool standsForWall(const particleCloud& cloud, label g)
+{
+    if (g < cloud.n()) return false;
+    if (cloud.phase[g] == phaseType::rigid) return true;
+    const ghostRule& rule = cloud.ruleOf(g);
+    return (rule.M.topLeftCorner<3, 3>() - rule.R).cwiseAbs().maxCoeff() > 0.5;
+}
+
+bool isSolid(const particleCloud& cloud, label j)
+{
+    const label owner = cloud.ownerOf(j);
+    return owner >= 0 && !cloud.isFluid(owner);
+}
+
+// Solids, and the fluid that has a neighbour of a body
+List<char> besideBodies(const particleCloud& cloud, scalar support)
+{
+    pointGrid bodies(support);
+    for (label j = 0; j < cloud.nAll(); ++j)
+        if (isSolid(cloud, j) || standsForWall(cloud, j)) bodies.add(cloud.x[j].xyz());
+    List<char> beside(cloud.n(), 1);
+    parallelFor(cloud.n(), [&](label begin, label end) {
+        for (label i = std::max(begin, cloud.nSolid()); i < end; ++i)
+            beside[i] = bodies.any(cloud.x[i].xyz(), support);
+    });
+    return beside;
+}
 
 // Which body a neighbour of the fluid belongs to
 class bodyFinder
@@ -32,9 +62,8 @@ public:
     // The wall, or the zone behind all of them; -1: none
     label of(label i, label j) const
     {
-        const label owner = cloud_.ownerOf(j);
-        if (owner >= 0 && !cloud_.isFluid(owner)) return label(walls_.size()) + cloud_.zone[owner];
-        if (j < cloud_.n() || !standsForWall(j) || walls_.empty()) return -1;
+        if (isSolid(cloud_, j)) return label(walls_.size()) + cloud_.zone[cloud_.ownerOf(j)];
+        if (!standsForWall(cloud_, j) || walls_.empty()) return -1;
         const vector at = 0.5 * (cloud_.x[i].xyz() + cloud_.x[j].xyz());
         label nearest = 0;
         scalar distance = std::numeric_limits<scalar>::max();
@@ -45,14 +74,6 @@ public:
     }
 
 private:
-    // A rigid particle, or an image that does not move as its position is mirrored
-    bool standsForWall(label g) const
-    {
-        if (cloud_.phase[g] == phaseType::rigid) return true;
-        const ghostRule& rule = cloud_.ruleOf(g);
-        return (rule.M.topLeftCorner<3, 3>() - rule.R).cwiseAbs().maxCoeff() > 0.5;
-    }
-
     const particleCloud& cloud_;
     List<word> walls_;
     List<surfaceSearch> surfaces_;
@@ -103,6 +124,13 @@ private:
 };
 
 }  // namespace
+
+pairFriction::pairFriction(const fsiCase& c)
+    : pairFriction(c, presentState(c, [&](const particleCloud& cloud) {
+                       return besideBodies(cloud, c.kernel->support());
+                   }))
+{
+}
 
 pairFriction::pairFriction(const fsiCase& c, const presentState& s)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surfaceFit.H"
 
+#include <array>
 #include <cmath>
 
 namespace ispf
@@ -14,37 +15,64 @@ constexpr scalar behind =
     0.1;  // [dx] a particle further beyond the facet's plane is on the other side
 constexpr scalar dependent = 1e-3;  // a column of the fit that hardly differs from the others
 
-// Monomials of the order and below: 1, x, y (z), x^2, xy, ...
-Eigen::RowVectorXd monomials(const vector& d, int nDims, int order)
+// Monomials of the second order and below, or of the first: 1, x, y (z), x^2, xy, ...
+template <int nColumns>
+Eigen::Matrix<scalar, nColumns, 1> monomials(const vector& d)
 {
-    Eigen::RowVectorXd m(order == 2 ? (nDims + 1) * (nDims + 2) / 2 : nDims + 1);
+    constexpr int nDims = nColumns == 3 || nColumns == 6 ? 2 : 3;
+    Eigen::Matrix<scalar, nColumns, 1> m;
     int n = 0;
     m[n++] = 1;
     for (int a = 0; a < nDims; ++a) m[n++] = d[a];
-    for (int a = 0; order == 2 && a < nDims; ++a)
-        for (int b = a; b < nDims; ++b) m[n++] = d[a] * d[b];
+    if constexpr (nColumns > nDims + 1)
+        for (int a = 0; a < nDims; ++a)
+            for (int b = a; b < nDims; ++b) m[n++] = d[a] * d[b];
     return m;
+}
+
+// x of A x = b, A symmetric, the largest pivot first; false where one of them vanishes beside the first
+template <int n>
+bool eliminate(Eigen::Matrix<scalar, n, n>& A, Eigen::Matrix<scalar, n, 4>& b)
+{
+    std::array<bool, n> done{};
+    scalar first = 0;
+    for (int k = 0; k < n; ++k)
+    {
+        int p = -1;
+        for (int q = 0; q < n; ++q)
+            if (!done[q] && (p < 0 || A(q, q) > A(p, p))) p = q;
+        first = std::max(first, A(p, p));
+        if (!(A(p, p) > dependent * dependent * first)) return false;
+        done[p] = true;
+        b.row(p) /= A(p, p), A.row(p) /= A(p, p);
+        for (int q = 0; q < n; ++q)
+            if (const scalar factor = A(q, p); q != p)
+                b.row(q) -= factor * b.row(p), A.row(q) -= factor * A.row(p);
+    }
+    return true;
 }
 
 }  // namespace
 
-surfaceFit::surfaceFit(const fsiCase& c, const List<char>& zones)
+surfaceFit::surfaceFit(const fsiCase& c, const List<char>& zones, const List<facet>& facets)
     : nDims_(c.cloud.nDims), dx_(c.cloud.dx), grid_(reach * c.cloud.dx)
 {
+    boundBox box;
+    for (const facet& f : facets) box.add(f.centre);
+    const auto add = [&](const vector& x, const vec4& Up) {
+        if (box.distSqr(x) < reach * reach * dx_ * dx_) grid_.add(x), Up_.push_back(Up);
+    };
     const List<structureImage> images = c.walls->images();
     for (label i = 0; i < c.cloud.n(); ++i)
     {
         if (!zones[c.cloud.zone[i]]) continue;
-        grid_.add(c.cloud.x[i].xyz()), Up_.push_back(c.cloud.Up[i]);
+        add(c.cloud.x[i].xyz(), c.cloud.Up[i]);
         for (const structureImage& map : images)
-        {
-            grid_.add(map(c.cloud.x[i].xyz()));
-            Up_.push_back(vec4::from(map.R * c.cloud.Up[i].xyz(), c.cloud.Up[i][3]));
-        }
+            add(map(c.cloud.x[i].xyz()), vec4::from(map.R * c.cloud.Up[i].xyz(), c.cloud.Up[i][3]));
     }
 }
 
-List<fluidAt> surfaceFit::at(const List<facet>& facets) const
+List<fluidAt> surfaceFit::of(const List<facet>& facets) const
 {
     List<fluidAt> result(facets.size());
     parallelFor(
@@ -69,28 +97,26 @@ fluidAt surfaceFit::fit(const facet& f) const
         nearest = std::min(nearest, r);
     });
     fluidAt result;
-    result.covered = nearest < farthest * dx_ && (solve(near, 2, result) || solve(near, 1, result));
+    result.covered = nearest < farthest * dx_ &&
+                     (nDims_ == 2 ? solve<6>(near, result) || solve<3>(near, result)
+                                  : solve<10>(near, result) || solve<4>(near, result));
     return result;
 }
 
 // False where the particles do not determine all coefficients
-bool surfaceFit::solve(const List<neighbour>& near, int order, fluidAt& result) const
+template <int nColumns>
+bool surfaceFit::solve(const List<neighbour>& near, fluidAt& result) const
 {
-    const Eigen::Index rows = Eigen::Index(near.size());
-    const Eigen::Index columns = monomials(vector::Zero(), nDims_, order).size();
-    if (rows < columns) return false;
-    Eigen::MatrixXd A(rows, columns), b(rows, 4);
-    for (Eigen::Index r = 0; r < rows; ++r)
+    Eigen::Matrix<scalar, nColumns, nColumns> A = Eigen::Matrix<scalar, nColumns, nColumns>::Zero();
+    Eigen::Matrix<scalar, nColumns, 4> c = Eigen::Matrix<scalar, nColumns, 4>::Zero();
+    for (const neighbour& j : near)
     {
-        const scalar w = std::sqrt(near[r].weight);
-        const vec4& up = Up_[near[r].k];
-        A.row(r) = w * monomials(near[r].d, nDims_, order);
-        b.row(r) = w * Eigen::RowVector4d(up[0], up[1], up[2], up[3]);
+        const Eigen::Matrix<scalar, nColumns, 1> m = monomials<nColumns>(j.d), mw = j.weight * m;
+        const vec4& up = Up_[j.k];
+        A.noalias() += mw * m.transpose();
+        c.noalias() += mw * Eigen::RowVector4d(up[0], up[1], up[2], up[3]);
     }
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
-    qr.setThreshold(dependent);
-    if (qr.rank() < columns) return false;
-    const Eigen::MatrixXd c = qr.solve(b);
+    if (label(near.size()) < nColumns || !eliminate<nColumns>(A, c)) return false;
     for (int a = 0; a < 3; ++a)
     {
         result.U[a] = c(0, a);

@@ -84,7 +84,7 @@ private:
         word text =
             "# x\ty\tz\tp\tU_x\tU_y\tU_z\twallShearStress_x\twallShearStress_y\t"
             "wallShearStress_z\n";
-        for (const loadedBody::side& s : b.sides())
+        for (const loadedBody::triangulation& s : b.triangulated())
             for (const row& r : rowsOf(s))
             {
                 word line = numbers(r.centre) + " " + number(r.p) + " " + numbers(r.U) + " " +
@@ -100,7 +100,7 @@ private:
     {
         word points, triangles, p, U, shear, covered;
         size_t nPoints = 0, nTriangles = 0;
-        for (const loadedBody::side& s : b.sides())
+        for (const loadedBody::triangulation& s : b.triangulated())
         {
             for (const vector& x : s.surface.nodes) points += numbers(x) + "\n";
             for (const auto& t : s.surface.triangles)

@@ -126,8 +126,11 @@ private:
         const presentState s(case_);
         powers p;
         p.dissipation = dissipationOf(s, case_.mu);
-        const pairFriction friction(case_, s);
-        for (const loadedBody& wall : walls_) addWall(wall, friction, p);
+        if (!walls_.empty())
+        {
+            const pairFriction friction(case_, s);
+            for (const loadedBody& wall : walls_) addWall(wall, friction, p);
+        }
         p.openPower = openPower();
         const scalar whole = case_.walls->symmetryFactor();
         return {whole * p.dissipation, whole * p.wallPower, whole * p.openPower};

@@ -180,11 +180,18 @@ void functionObjectList::restore()
             i.object->restore(kept->second);
 }
 
+template <class Work>
+void functionObjectList::timed(const item& i, Work&& work)
+{
+    case_.time.stages.in("function object " + i.object->name(), work);
+}
+
 void functionObjectList::start()
 {
     placeWalls();
     for (item& i : items_)
-        if (i.write.control != "none" && i.write.control != "onEnd" && within(i)) i.object->write();
+        if (i.write.control != "none" && i.write.control != "onEnd" && within(i))
+            timed(i, [&] { i.object->write(); });
 }
 
 void functionObjectList::execute()
@@ -195,8 +202,10 @@ void functionObjectList::execute()
     {
         const bool now = due(i.execute), writes = due(i.write);
         if (!within(i)) continue;
-        if (now) i.object->execute();
-        if (writes) i.object->write();
+        timed(i, [&] {
+            if (now) i.object->execute();
+            if (writes) i.object->write();
+        });
     }
     if (!case_.time.writeTime()) return;
     for (item& i : items_)
@@ -211,8 +220,10 @@ void functionObjectList::end()
 
 void functionObjectList::finish(item& i)
 {
-    if (i.write.control == "onEnd" && within(i)) i.object->write();
-    i.object->end();
+    timed(i, [&] {
+        if (i.write.control == "onEnd" && within(i)) i.object->write();
+        i.object->end();
+    });
 }
 
 void functionObjectList::writeNow()

@@ -22,15 +22,13 @@ namespace
 const List<word> solverWords = {"PCG", "PBiCGStab", "FGMRES", "direct"};
 const List<word> preconditionerWords = {"multigrid", "DIC", "DILU", "diagonal", "none"};
 
-// Keys that another choice of words would use: read, and named once in the log
-void passOver(const dictionary& dict, const List<word>& keys, const word& choice)
+// Keys that another choice of words would use
+void refuse(const dictionary& dict, const List<word>& keys, const word& choice)
 {
-    List<word> present;
     for (const word& key : keys)
-        if (dict.found(key)) dict.tokens(key), present.push_back(key);
-    if (!present.empty())
-        info() << dict.scope() << ": " << join(present, ", ") << " not used by " << choice
-               << std::endl;
+        if (dict.found(key))
+            dict.fail(key,
+                      "It has no effect with " + choice + ", which does not use it. Leave it away");
 }
 
 // CPU time of all threads between calls; looks at no clock unless asked to
@@ -71,11 +69,11 @@ public:
         if (solver == "FGMRES")
             krylov_ = std::make_unique<FGMRES>(
                 controls_, fieldName, dict.getInRangeOrDefault<label>("restart", 1, 1000, 60));
-        else passOver(dict, {"restart"}, solver);
+        else refuse(dict, {"restart"}, "solver " + solver);
 
         if (name_ != "multigrid")
         {
-            passOver(dict, {"cycle", "omega", "coarsestSize"}, name_);
+            refuse(dict, {"cycle", "omega", "coarsestSize"}, "preconditioner " + name_);
             return;
         }
         options_.cycle = word(solver == "PBiCGStab" ? "V" : "K");
@@ -97,15 +95,15 @@ public:
         cpuLaps cpu(profiling_);
         const preconditioner& M = prepare(system);
         const scalar setup = cpu.lap();
-        solverPerformance done =
-            iterate(system.whole ? *system.whole : static_cast<const linearOperator&>(system.A), M, b, x);
+        solverPerformance done = iterate(
+            system.whole ? *system.whole : static_cast<const linearOperator&>(system.A), M, b, x);
         done.setupCpu = setup, done.solveCpu = cpu.lap();
         return done;
     }
 
 private:
-    solverPerformance iterate(const linearOperator& A, const preconditioner& M, const List<scalar>& b,
-                              List<scalar>& x)
+    solverPerformance iterate(const linearOperator& A, const preconditioner& M,
+                              const List<scalar>& b, List<scalar>& x)
     {
         if (floating_.empty()) return krylov_->solve(A, M, b, x);
         List<scalar> compatible(b);
@@ -167,10 +165,10 @@ public:
     directSolver(const word& fieldName, const dictionary& dict)
         : fieldName_(fieldName), profiling_(profiling(dict))
     {
-        passOver(dict,
-                 {"preconditioner", "tolerance", "relTol", "absTol", "maxIter", "restart", "cycle",
-                  "omega", "coarsestSize"},
-                 "direct");
+        refuse(dict,
+               {"preconditioner", "tolerance", "relTol", "absTol", "maxIter", "restart", "cycle",
+                "omega", "coarsestSize"},
+               "solver direct");
     }
 
     solverPerformance solve(const linearSystem& system, const List<scalar>& b,

@@ -8,9 +8,9 @@
 namespace ispf
 {
 
-solverControls solverControls::fromDict(const dictionary& dict)
+solverControls solverControls::fromDict(const dictionary& dict, const solverControls& otherwise)
 {
-    solverControls c;
+    solverControls c = otherwise;
     c.tolerance = dict.getInRangeOrDefault("tolerance", 0, 0.1, c.tolerance);
     c.relTol = dict.getInRangeOrDefault("relTol", 0, 0.5, c.relTol);
     c.absTol = dict.getInRangeOrDefault("absTol", 0, 1e300, c.absTol);

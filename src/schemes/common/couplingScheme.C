@@ -43,6 +43,17 @@ word couplingScheme::advice() const
     return "Run checkParticles, and see whether a load or a motion jumps";
 }
 
+couplingScheme::stepLimit couplingScheme::limit() const
+{
+    return adjusted(limitAt(c_.time.value()));
+}
+
+couplingScheme::stepLimit couplingScheme::limitAt(scalar t) const
+{
+    c_.walls->setStep(t, c_.stepEnd(t));
+    return admitted();
+}
+
 bool couplingScheme::step(scalar t, scalar dt)
 {
     printCourant(c_.cloud, dt);

@@ -41,43 +41,64 @@ const word missedField = "missedJ";
 // Below this cell Reynolds number viscosity damps what dx does not resolve
 constexpr scalar resolved = 5;
 
+struct monolithicEntries
+{
+    monolithicPreconditioner::entries preconditioner;
+    scalar theta, alpha, tolerance, absTolerance;
+    label maxIter;
+    bool makesGood;
+
+    monolithicEntries(const dictionary& dict, bool hasSolid)
+        : preconditioner(dict),
+          theta(dict.getInRangeOrDefault("theta", 0, 1, hasSolid ? 0.95 : 0)),
+          alpha(dict.getInRangeOrDefault("volumeFeedback", 0, 1, 0.1)),
+          tolerance(dict.getInRangeOrDefault("tolerance", 1e-14, 0.1, 1e-4)),
+          absTolerance(dict.getInRangeOrDefault("absTolerance", 0, 0.1, 1e-5)),
+          maxIter(dict.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
+          makesGood(dict.getOrDefault("divergenceDefect", true))
+    {
+        if (hasSolid) return;
+        for (const char* entry : {"theta", "volumeFeedback", "divergenceDefect", "solid"})
+            if (dict.found(entry))
+                dict.fail(entry, "It acts on a solid, and this case has none. Leave it away");
+    }
+    explicit monolithicEntries(const fsiCase& c)
+        : monolithicEntries(c.solution.subOrEmptyDict("monolithic"), bool(c.structure))
+    {
+    }
+};
+
 class monolithic : public couplingScheme
 {
 public:
-    explicit monolithic(fsiCase& c)
+    explicit monolithic(fsiCase& c) : monolithic(c, monolithicEntries(c)) {}
+
+    monolithic(fsiCase& c, const monolithicEntries& e)
         : couplingScheme(c),
-          dict_(c.solution.subOrEmptyDict("monolithic")),
           system_(c),
-          preconditioner_(system_, dict_),
-          theta_(dict_.getInRangeOrDefault("theta", 0, 1, c.structure ? 0.95 : 0)),
-          alpha_(dict_.getInRangeOrDefault("volumeFeedback", 0, 1, 0.1)),
-          tolerance_(dict_.getInRangeOrDefault("tolerance", 1e-14, 0.1, 1e-4)),
-          absTolerance_(dict_.getInRangeOrDefault("absTolerance", 0, 0.1, 1e-5)),
-          maxIter_(dict_.getInRangeOrDefault<label>("maxIter", 1, 10000, 150)),
+          preconditioner_(system_, e.preconditioner),
+          theta_(e.theta),
+          alpha_(e.alpha),
+          tolerance_(e.tolerance),
+          absTolerance_(e.absTolerance),
+          maxIter_(e.maxIter),
           time_(c),
-          makesGood_(dict_.getOrDefault("divergenceDefect", true)),
+          makesGood_(e.makesGood),
           shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c),
                     shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx)),
           density_(c.solution, c.cloud)
     {
         time_.keepLevels();
         system_.enclosed().makeGood(makesGood_);
-        if (!c.structure)
-        {
-            for (const char* entry : {"theta", "volumeFeedback", "divergenceDefect", "solid"})
-                if (dict_.found(entry))
-                    dict_.fail(entry, "It acts on a solid, and this case has none. Leave it away");
-            return;
-        }
+        if (!c.structure) return;
         c.cloud.scalars[missedField].resize(c.cloud.n(), 0);
         K_ = c.structure->tangentPattern();
         preconditioner_.restore(K_);
         volume_ = std::make_unique<volumeConstraint>(*c.structure);
     }
 
-    stepLimit limit() const override;
-
 private:
+    stepLimit admitted() const override;
     word attempt(scalar t, scalar dt) override;
     void keep() override { preconditioner_.keep(c_.cloud); }
     word advice() const override;
@@ -97,7 +118,6 @@ private:
     scalar cellReynolds(scalar speed) const;
     scalar rounding(scalar dt, const List<scalar>& z) const;
 
-    dictionary dict_;
     coupledSystem system_;
     monolithicPreconditioner preconditioner_;
     scalar theta_, alpha_, tolerance_, absTolerance_;
@@ -134,12 +154,11 @@ scalar monolithic::rounding(scalar dt, const List<scalar>& z) const
 }
 
 // No limit of stability; where the step is adjusted, the fluid's motion rules it for accuracy
-couplingScheme::stepLimit monolithic::limit() const
+couplingScheme::stepLimit monolithic::admitted() const
 {
-    c_.walls->setStep(c_.time.value(), c_.stepEnd());
     const scalar u = velocityScale();
     if (!c_.time.adjustTimeStep() || u == 0) return {1e30, "no"};
-    return adjusted({0.4 * c_.kernel->h() / u, "CFL"});
+    return {0.4 * c_.kernel->h() / u, "CFL"};
 }
 
 void monolithic::structureState()
@@ -314,7 +333,7 @@ word monolithic::attempt(scalar t, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
     time_.start(cloud, t, dt);
-    c_.updateNeighbours(time_.times());
+    c_.time.stages.in("neighbours", [&] { c_.updateNeighbours(time_.times()); });
     system_.setStep(t, t + dt);
     energy_.begin(time_.startPlaces(cloud));
     structureState();
@@ -322,8 +341,10 @@ word monolithic::attempt(scalar t, scalar dt)
     time_.begin(cloud);
     const List<vec4> start(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
     List<scalar> z;
-    if (const word reason = atTime(t + dt, [&] { return solve(dt, z); }); !reason.empty())
-        return reason;
+    const word fails = atTime(t + dt, [&] {
+        return c_.time.stages.in("velocity and pressure", [&] { return solve(dt, z); });
+    });
+    if (!fails.empty()) return fails;
     accept(z);
     energy_.weigh(time_.weight(), [&] { system_.book(start, theta_, springForce_, q_, energy_); });
     if (outletsDiffer(time_.tau())) return outletsAsk;
@@ -345,6 +366,11 @@ word monolithic::attempt(scalar t, scalar dt)
 }
 
 }  // namespace
+
+void checkMonolithicEntries(const fsiCase& c)
+{
+    monolithicEntries{c};
+}
 
 std::unique_ptr<couplingScheme> newMonolithic(fsiCase& c)
 {

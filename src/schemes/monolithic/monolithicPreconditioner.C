@@ -16,15 +16,17 @@ const word solidFactor = "solidFactor";
 
 }  // namespace
 
-monolithicPreconditioner::monolithicPreconditioner(const coupledSystem& system,
-                                                   const dictionary& dict)
-    : system_(system),
-      beta_(dict.getInRangeOrDefault("beta", 0, 10, 1)),
-      solid_(dict.subOrEmptyDict("solid"))
+monolithicPreconditioner::entries::entries(const dictionary& dict)
+    : beta(dict.getInRangeOrDefault("beta", 0, 10, 1)), solid(dict.subOrEmptyDict("solid"))
 {
     // One V-cycle is the cheapest that serves FGMRES
-    options_.cycle = "V", options_.omega = 1.2;
-    options_.read(dict.subOrEmptyDict("multigrid"));
+    multigrid.cycle = "V", multigrid.omega = 1.2;
+    multigrid.read(dict.subOrEmptyDict("multigrid"));
+}
+
+monolithicPreconditioner::monolithicPreconditioner(const coupledSystem& system, const entries& e)
+    : system_(system), options_(e.multigrid), beta_(e.beta), solid_(e.solid)
+{
 }
 
 void monolithicPreconditioner::setup(const List<vec4>& springsAt)

@@ -6,12 +6,17 @@
 namespace ispf
 {
 
-solidBlock::solidBlock(const dictionary& dict)
-    : solver_(dict.chooseOrDefault("solver", {"direct", "multigrid"}, "direct")),
-      refactorInterval_(dict.getInRangeOrDefault<label>("refactorInterval", 1, 1e6, 10))
+solidBlock::entries::entries(const dictionary& dict)
+    : solver(dict.chooseOrDefault("solver", {"direct", "multigrid"}, "direct")),
+      refactorInterval(dict.getInRangeOrDefault<label>("refactorInterval", 1, 1e6, 10))
 {
-    options_.cycle = "V", options_.omega = 0.9;
-    options_.read(dict.subOrEmptyDict("multigrid"));
+    multigrid.cycle = "V", multigrid.omega = 0.9;
+    multigrid.read(dict.subOrEmptyDict("multigrid"));
+}
+
+solidBlock::solidBlock(const entries& e)
+    : solver_(e.solver), refactorInterval_(e.refactorInterval), options_(e.multigrid)
+{
 }
 
 void solidBlock::assemble(const blockMatrix3& K, scalar dt, const List<scalar>& A,

@@ -11,8 +11,7 @@ namespace ispf
 namespace
 {
 
-const char* const defaultPressureSolver =
-    "solver PCG; preconditioner multigrid; tolerance 1e-6; relTol 0; maxIter 200;";
+const char* const defaultPressureSolver = "solver PCG; preconditioner multigrid;";
 
 scalar maxSpeed(const particleCloud& cloud)
 {

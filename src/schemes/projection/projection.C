@@ -34,18 +34,35 @@ namespace
 // Entry of cloud.history: slope of p along cyclic patches in the last step, if it is not zero [Pa/m]
 const word slopeOfStep = "pressureSlope";
 
+struct projectionEntries
+{
+    dictionary dict;
+    bool explicitViscosity, mean;
+    projectionLimits limits;
+
+    explicit projectionEntries(const fsiCase& c)
+        : dict(c.solution.subOrEmptyDict("projection")),
+          explicitViscosity(dict.chooseOrDefault("viscosity", {"implicit", "explicit"},
+                                                 "implicit") == "explicit"),
+          mean(dict.chooseOrDefault("positionUpdate", {"symplectic", "mean"}, "symplectic") ==
+               "mean"),
+          limits(c, explicitViscosity, mean, dict.subOrEmptyDict("limits"))
+    {
+    }
+};
+
 class projection : public couplingScheme
 {
 public:
-    explicit projection(fsiCase& c)
+    explicit projection(fsiCase& c) : projection(c, projectionEntries(c)) {}
+
+    projection(fsiCase& c, const projectionEntries& e)
         : couplingScheme(c),
-          dict_(c.solution.subOrEmptyDict("projection")),
-          explicit_(dict_.chooseOrDefault("viscosity", {"implicit", "explicit"}, "implicit") ==
-                    "explicit"),
-          mean_(dict_.chooseOrDefault("positionUpdate", {"symplectic", "mean"}, "symplectic") ==
-                "mean"),
+          dict_(e.dict),
+          explicit_(e.explicitViscosity),
+          mean_(e.mean),
           time_(c),
-          limits_(c, explicit_, mean_, dict_.subOrEmptyDict("limits")),
+          limits_(e.limits),
           step_(c.rho, c.mu, explicit_ ? "explicit" : "implicit", c.solution, time_.secondOrder()),
           shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c),
                     shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx)),
@@ -67,9 +84,8 @@ public:
                << std::endl;
     }
 
-    stepLimit limit() const override;
-
 private:
+    stepLimit admitted() const override;
     word attempt(scalar t, scalar dt) override;
     void keep() override { limits_.keep(c_.cloud); }
 
@@ -91,11 +107,10 @@ private:
     vector slope_ = vector::Zero();  // of p along cyclic patches with a pressureDrop [Pa/m]
 };
 
-couplingScheme::stepLimit projection::limit() const
+couplingScheme::stepLimit projection::admitted() const
 {
-    c_.walls->setStep(c_.time.value(), c_.stepEnd());
     List<vec4> spring;
-    return adjusted(limits_.ruling(accelerations(c_.walls->pressureSlope(), spring)));
+    return limits_.ruling(accelerations(c_.walls->pressureSlope(), spring));
 }
 
 // Body force of the zone, springs, Eq. (2) of the paper, and the slope of p along cyclic patches
@@ -174,8 +189,9 @@ void projection::solve(const stencil& s, scalar dt)
     if (density_.on() && !c_.walls->hasCyclic())
         density_.addTo(q, step_.pair(), drainedFluid(cloud, c_.list, closed), dt);
     List<vec4> spring;
-    step_.predict(cloud, s, accelerations(slope_, spring), dt);
-    step_.project(cloud, s, q, c_.kernel->support(), dt);
+    c_.time.stages.in("velocity",
+                      [&] { step_.predict(cloud, s, accelerations(slope_, spring), dt); });
+    c_.time.stages.in("pressure", [&] { step_.project(cloud, s, q, c_.kernel->support(), dt); });
     energy_.weigh(time_.weight(), [&] {
         step_.book(cloud, dt, energy_);
         energy_[energyLedger::forces] -= energy_.bookSprings(spring, dt);
@@ -192,7 +208,8 @@ word projection::attempt(scalar t, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
     time_.start(cloud, t, dt);
-    c_.updateNeighbours(time_.times(), fractionalStep::behind(cloud));
+    c_.time.stages.in("neighbours",
+                      [&] { c_.updateNeighbours(time_.times(), fractionalStep::behind(cloud)); });
     hydrostatic_.setStep(t, t + dt);
     slope_ = c_.walls->pressureSlope();
     energy_.begin(time_.startPlaces(cloud));
@@ -227,6 +244,12 @@ word projection::attempt(scalar t, scalar dt)
 }
 
 }  // namespace
+
+void checkProjectionEntries(const fsiCase& c)
+{
+    projectionEntries{c};
+    fractionalStep(c.rho, c.mu, "implicit", c.solution);
+}
 
 std::unique_ptr<couplingScheme> newProjection(fsiCase& c)
 {

@@ -77,8 +77,8 @@ projectionViscosity::projectionViscosity(const dictionary& solverU)
 {
     const word method = solverU.chooseOrDefault("solver", {"PCG", "PBiCGStab"}, "PCG");
     solverControls controls;
-    controls.tolerance = 1e-8, controls.maxIter = 200;
-    if (!solverU.empty()) controls = solverControls::fromDict(solverU);
+    controls.tolerance = 1e-8;
+    controls = solverControls::fromDict(solverU, controls);
     if (method == "PCG") solver_ = std::make_unique<PCG>(controls, "U");
     else solver_ = std::make_unique<PBiCGStab>(controls, "U");
 }

@@ -23,7 +23,7 @@ int run(const argList& args)
 {
     args.printHeader();
     info() << "Create time\n";
-    const double steps = args.numberOr("steps", 3);
+    const double steps = args.numberOr("steps", 21);
     if (steps < 0 || steps > 1e6 || steps != std::floor(steps))
         throw fatalError("-steps wants a whole number from 0 to 1e6.");
     Time time(args.caseFolder());
@@ -39,6 +39,7 @@ int run(const argList& args)
 
     fsiCase c(time);
     c.updateNeighbours(time.value(), time.value() + time.deltaT());
+    printZones(c, found);
     checkSides(c, found);
     checkSpacing(c, found);
     checkNeighbours(c, found);
@@ -55,8 +56,9 @@ int main(int argc, char** argv)
     return runMain([&] {
         argList args("checkParticles", "Reports on the particles of a case and checks them.");
         args.addOption("time", "value", "time to look at (default: where a run would start)");
-        args.addOption("steps", "n",
-                       "steps to make for the prediction of time (default 3; 0: none)");
+        args.addOption(
+            "steps", "n",
+            "steps to make for the prediction of time (default 21, fewer in 20 s; 0: none)");
         return args.parse(argc, argv) ? run(args) : 0;
     });
 }

@@ -26,19 +26,6 @@ word at(const vector& x)
     return "(" + str(x[0]) + " " + str(x[1]) + " " + str(x[2]) + ")";
 }
 
-void printZones(const particleCloud& cloud)
-{
-    List<label> n(cloud.zones.size(), 0);
-    for (label i = 0; i < cloud.n(); ++i) ++n[cloud.zone[i]];
-    info() << "    " << std::left << std::setw(16) << "zone" << std::setw(10) << "phase"
-           << std::right << std::setw(10) << "particles" << std::setw(14)
-           << (cloud.nDims == 3 ? "volume [m3]" : "area [m2]") << "\n";
-    for (size_t z = 0; z < n.size(); ++z)
-        info() << "    " << std::left << std::setw(16) << cloud.zones[z].name << std::setw(10)
-               << phaseName(cloud.zones[z]) << std::right << std::setw(10) << n[z] << std::setw(14)
-               << str(n[z] * cloud.volume(), 5) << "\n";
-}
-
 label notFinite(const particleCloud& cloud)
 {
     for (label i = 0; i < cloud.n(); ++i)
@@ -163,12 +150,27 @@ word phaseName(const zoneInfo& zone)
     return zone.phase == phaseType::fluid ? "fluid" : zone.fixed ? "clamped" : "solid";
 }
 
+void printZones(const fsiCase& c, findings& found)
+{
+    found.heading("Zones, and their volumes without what lies beyond open faces");
+    const particleCloud& cloud = c.cloud;
+    List<label> n(cloud.zones.size(), 0), beyond(cloud.zones.size(), 0);
+    for (label i = 0; i < cloud.n(); ++i)
+        ++n[cloud.zone[i]], beyond[cloud.zone[i]] += cloud.beyondOpen(i);
+    info() << "    " << std::left << std::setw(16) << "zone" << std::setw(10) << "phase"
+           << std::right << std::setw(10) << "particles" << std::setw(10) << "beyond"
+           << std::setw(14) << (cloud.nDims == 3 ? "volume [m3]" : "area [m2]") << "\n";
+    for (size_t z = 0; z < n.size(); ++z)
+        info() << "    " << std::left << std::setw(16) << cloud.zones[z].name << std::setw(10)
+               << phaseName(cloud.zones[z]) << std::right << std::setw(10) << n[z] << std::setw(10)
+               << beyond[z] << std::setw(14) << str((n[z] - beyond[z]) * cloud.volume(), 5) << "\n";
+}
+
 void checkPositions(const particleCloud& cloud, scalar time, findings& found)
 {
     found.heading("Particles at time " + str(time));
     found.note("number " + std::to_string(cloud.n()) + ", dx " + str(cloud.dx) + " m, " +
                std::to_string(cloud.nDims) + "D");
-    printZones(cloud);
 
     found.heading("Checking positions...");
     if (const label i = notFinite(cloud); i >= 0)

@@ -12,7 +12,8 @@ namespace ispf
 namespace
 {
 
-constexpr scalar longEnough = 60;  // [s] no further step is begun after so long
+constexpr scalar longEnough = 20;  // [s] no further step is begun after so long
+constexpr label fewest = 3;        // steps, however long they take
 
 scalar peakMemory()  // [MB]
 {
@@ -20,6 +21,8 @@ scalar peakMemory()  // [MB]
     getrusage(RUSAGE_SELF, &usage);
     return scalar(usage.ru_maxrss) / 1024;
 }
+
+constexpr int nLooks = 200;  // times at which the limits of a run are looked at
 
 struct stepCost
 {
@@ -34,22 +37,22 @@ void checkLimit(const Time& time, const couplingScheme::stepLimit& limit, findin
                    " limit: the largest admissible value now is " + str(limit.dt) + " s");
 }
 
-List<stepCost> makeSteps(fsiCase& c, label most, findings& found)
+List<stepCost> makeSteps(fsiCase& c, couplingScheme& coupling, label most, findings& found)
 {
     using clock = std::chrono::steady_clock;
-    const auto coupling = couplingScheme::New(c);
-    checkLimit(c.time, coupling->limit(), found);
+    checkLimit(c.time, coupling.limit(), found);
     List<stepCost> costs;
     scalar spent = 0;
-    while (label(costs.size()) < most && spent < longEnough && c.time.run())
+    while (label(costs.size()) < most && (spent < longEnough || label(costs.size()) < fewest) &&
+           c.time.run())
     {
         const auto start = clock::now();
         const scalar cpuStart = c.time.elapsedCpuTime();
         const scalar t0 = c.time.value();
         const label index = c.time.timeIndex();
-        c.time.setDeltaT(std::min(c.time.deltaT(), coupling->limit().dt));
+        c.time.setDeltaT(std::min(c.time.deltaT(), coupling.limit().dt));
         ++c.time;
-        if (!coupling->step(t0, c.time.deltaT()))
+        if (!coupling.step(t0, c.time.deltaT()))
         {
             c.time.rewind(t0, index);
             c.time.setDeltaT(0.5 * c.time.deltaT());
@@ -62,34 +65,70 @@ List<stepCost> makeSteps(fsiCase& c, label most, findings& found)
     return costs;
 }
 
+// The steps that a run will take from here
+struct outlook
+{
+    scalar steps = 0, mean = 0, least = 0;
+    word rule;  // of the least
+};
+
+// What is given tells how fast the fluid will be, a profile's peak over its mean left aside
+outlook lookAhead(const fsiCase& c, const couplingScheme& coupling)
+{
+    const Time& time = c.time;
+    const dictionary& control = time.controlDict();
+    const scalar asked = control.get<scalar>("deltaT", dims::time);
+    const scalar longest = control.getOrDefault<scalar>("maxDeltaT", asked, dims::time);
+    const scalar left = time.endTime() - time.value();
+    outlook ahead{0, asked, std::min(asked, longest), "deltaT"};
+    for (int k = 0; k < nLooks; ++k)
+    {
+        scalar dt = std::min(asked, longest);
+        if (time.adjustTimeStep())
+        {
+            const auto limit = coupling.limitAt(time.value() + k * left / nLooks);
+            dt = std::min(limit.dt, longest);
+            if (dt < ahead.least) ahead.least = dt, ahead.rule = "the " + limit.rule + " limit";
+        }
+        ahead.steps += left / (nLooks * dt);
+    }
+    ahead.mean = ahead.steps > 0 ? left / ahead.steps : asked;
+    return ahead;
+}
+
 }  // namespace
 
 void timeSteps(fsiCase& c, label most, findings& found)
 {
     found.heading("Making steps of coupling " + c.coupling + " to time them...");
     List<stepCost> costs;
+    outlook ahead;
     try
     {
-        costs = makeSteps(c, most, found);
+        const auto coupling = couplingScheme::New(c);
+        costs = makeSteps(c, *coupling, most, found);
+        ahead = lookAhead(c, *coupling);
     }
     catch (const fatalError& error)
     {
         return found.fail(word("The case does not step: ") + error.what());
     }
     if (costs.empty()) return found.note("None: endTime is reached");
-    // the first pays for factorisations and starts; the others are what a run is made of
+    // the first ones pay for factorisations and starts; the others are what a run is made of
     valueRange usual, cpu;
-    for (size_t k = costs.size() > 1; k < costs.size(); ++k)
+    for (size_t k = costs.size() / 2; k < costs.size(); ++k)
         usual.add(costs[k].seconds), cpu.add(costs[k].cpuSeconds);
-    const scalar left = (c.time.endTime() - c.time.value()) / c.time.deltaT();
     found.note(
         "Time per step " + str(usual.mean(), 3) + " s by the clock, " + str(cpu.mean(), 3) +
         " s CPU of " + std::to_string(nThreads()) + " threads (mean of " + std::to_string(usual.n) +
         ", " + str(usual.least, 3) + " to " + str(usual.most, 3) + " s" +
         (costs.size() > 1 ? "; first step " + str(costs[0].seconds, 3) + " s" : word()) + ")");
-    found.note("To endTime " + str(c.time.endTime()) + " s: " + str(std::ceil(left), 9) +
-               " more steps of " + str(c.time.deltaT(), 3) + " s at this pace take " +
-               str(left * usual.mean() / 60, 3) + " min");
+    scalar spent = 0;
+    for (const stepCost& s : costs) spent += s.seconds;
+    found.note("To endTime " + str(c.time.endTime()) + " s: about " +
+               str(scalar(costs.size()) + ahead.steps, 3) + " steps of " + str(ahead.mean, 3) +
+               " s, the shortest " + str(ahead.least, 3) + " s by " + ahead.rule + ", take " +
+               str((spent + ahead.steps * usual.mean()) / 60, 3) + " min without function objects");
     found.note("Memory " + str(peakMemory(), 4) + " MB (the most this program has used so far)");
 }
 
