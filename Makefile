@@ -75,7 +75,7 @@ endif
 ifeq ($(OPT),Fuzz)
 WARN += -Wno-unknown-warning-option
 endif
-# Threads are started in core/parallel only: Eigen's own would spin and depend on their number.
+# Threads are started in core/base/execution only: Eigen's own would spin and depend on their number.
 # no-math-errno and no-trapping-math keep NaN checks working; finite-math-only would not
 HDF5_I   := $(shell pkg-config --cflags hdf5 2>/dev/null || echo -I/usr/include/hdf5/serial)
 HDF5_L   := $(shell pkg-config --libs-only-L hdf5 2>/dev/null || echo -L/usr/lib/x86_64-linux-gnu/hdf5/serial)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothingKernel.H"
-#include "parallel.H"
+#include "execution.H"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #include "wallLayers.H"
 
 #include "cellList.H"
-#include "parallel.H"
+#include "execution.H"
 #include <cmath>
 
 namespace ispf

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "facetCrossings.H"
 
-#include "parallel.H"
+#include "execution.H"
 #include "windingNumber.H"
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "featureSize.H"
 
-#include "parallel.H"
+#include "execution.H"
 #include "surfaceRefinement.H"
 #include <algorithm>
 #include <cmath>

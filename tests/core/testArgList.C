@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argList.H"
 #include "errorOf.H"
-#include "parallel.H"
+#include "execution.H"
 #include "temporaryFolder.H"
 
 using namespace ispf;

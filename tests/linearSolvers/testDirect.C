@@ -5,7 +5,7 @@
 #include "jitteredLattice.H"
 #include "luSolver.H"
 #include "messages.H"
-#include "parallel.H"
+#include "execution.H"
 #include <doctest/doctest.h>
 
 using namespace ispf;

@@ -6,7 +6,7 @@
 #include "incompleteFactor.H"
 #include "jitteredLattice.H"
 #include "luSolver.H"
-#include "parallel.H"
+#include "execution.H"
 #include <doctest/doctest.h>
 #include <limits>
 

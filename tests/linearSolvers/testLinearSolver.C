@@ -4,7 +4,7 @@
 #include "constantNullSpace.H"
 #include "jitteredLattice.H"
 #include "linearSolver.H"
-#include "parallel.H"
+#include "execution.H"
 #include <doctest/doctest.h>
 
 using namespace ispf;

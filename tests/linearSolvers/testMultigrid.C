@@ -3,7 +3,7 @@
 #include "PCG.H"
 #include "cellMultigrid.H"
 #include "jitteredLattice.H"
-#include "parallel.H"
+#include "execution.H"
 #include <doctest/doctest.h>
 #include <algorithm>
 #include <limits>

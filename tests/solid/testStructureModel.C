@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "parallel.H"
+#include "execution.H"
 #include "solidMotions.H"
 
 #include <doctest/doctest.h>

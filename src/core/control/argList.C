@@ -2,7 +2,7 @@
 #include "argList.H"
 
 #include "fileNames.H"
-#include "parallel.H"
+#include "execution.H"
 #include "token.H"
 #include <unistd.h>
 #include <cstdlib>

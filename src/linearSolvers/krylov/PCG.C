@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "PCG.H"
 
-#include "blockSums.H"
+#include "execution.H"
 
 namespace ispf
 {

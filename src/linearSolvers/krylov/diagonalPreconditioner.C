@@ -2,7 +2,7 @@
 #include "diagonalPreconditioner.H"
 
 #include "messages.H"
-#include "parallel.H"
+#include "execution.H"
 
 namespace ispf
 {

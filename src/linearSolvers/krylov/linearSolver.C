@@ -4,7 +4,7 @@
 #include "FGMRES.H"
 #include "PBiCGStab.H"
 #include "PCG.H"
-#include "parallel.H"
+#include "execution.H"
 #include "cellMultigrid.H"
 #include "choleskySolver.H"
 #include "diagonalPreconditioner.H"

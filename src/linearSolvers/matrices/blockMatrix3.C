@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "blockMatrix3.H"
 
-#include "parallel.H"
+#include "execution.H"
 
 namespace ispf
 {

@@ -2,7 +2,7 @@
 #include "csrMatrix.H"
 
 #include "messages.H"
-#include "parallel.H"
+#include "execution.H"
 #include <algorithm>
 
 namespace ispf

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cellMultigrid.H"
 
-#include "blockSums.H"
+#include "execution.H"
 #include "cellTransfer.H"
 #include "coarsening.H"
 #include <algorithm>

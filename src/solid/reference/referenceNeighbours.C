@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "referenceNeighbours.H"
 #include "messages.H"
-#include "parallel.H"
+#include "execution.H"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volumeConstraint.H"
-#include "parallel.H"
+#include "execution.H"
 
 namespace ispf
 {

@@ -13,7 +13,7 @@
 // A link to an image of the particle itself has its -A R in an entry of column i: K_ii is no other than in a whole body.
 #include "springLinks.H"
 #include "structureModel.H"
-#include "parallel.H"
+#include "execution.H"
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stiffnessFit.H"
-#include "parallel.H"
+#include "execution.H"
 #include "springModuli.H"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "uniformStressTest.H"
 #include "PCG.H"
-#include "parallel.H"
+#include "execution.H"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surfaceCover.H"
 #include "imagedPoints.H"
-#include "parallel.H"
+#include "execution.H"
 
 #include <algorithm>
 #include <cmath>
