@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "imageEntries.H"
+#include "forPairs.H"
 
 #include <algorithm>
 
@@ -54,14 +55,12 @@ struct linkRows
 
 void appendLinks(const particleCloud& cloud, const neighbourList& list, label i, List<link>& links)
 {
-    for (std::int64_t k = list.own[i]; k < list.wall[i]; ++k)
-    {
-        const label j = list.index[k];
-        if (j < cloud.n()) continue;
+    forNeighbours<among::connected>(list, i, [&](pairIndex k, label j) {
+        if (j < cloud.n()) return;
         const scalar w = -2 * list.F[k];
         if (!negligible(w, cloud.dx))
             links.push_back({i, cloud.ghostSource(j), cloud.ruleOf(j).M(3, 3), w});
-    }
+    });
 }
 
 List<link> linksOf(const particleCloud& cloud, const neighbourList& list)
