@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "approachLimit.H"
+#include "forPairs.H"
 
 #include <algorithm>
 #include <cmath>

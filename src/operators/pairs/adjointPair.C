@@ -37,9 +37,10 @@ ISPF_HOT void gradientRange(const view& v, const vec4* phi, label begin, label e
     for (label i = begin; i < end; ++i)
     {
         const scalar pi = phi[i].s[3];
-        gp[i].s = inSpace * sumNeighbours(v.list, v.row(i), simd4{}, [&](pairIndex k, label j) {
-                      return (phi[j].s[3] - pi) * v.face(k);
-                  });
+        const simd4 sum = sumNeighbours(v.list, v.row(i), simd4{}, [&](pairIndex k, label j) {
+            return (phi[j].s[3] - pi) * v.face(k);
+        });
+        gp[i].s = sum * inSpace;
     }
 }
 

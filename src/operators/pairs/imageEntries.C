@@ -45,6 +45,7 @@ struct linkRows
         if (start[i] == start[i + 1]) return;
         std::sort(links.begin() + start[i], links.begin() + start[i + 1], before);
         label to = start[i];
+        // by hand: the links of a row are moved within it
         for (label k = start[i] + 1; k < start[i + 1]; ++k)
             if (links[k].column == links[to].column && links[k].m == links[to].m)
                 links[to].w += links[k].w;
@@ -87,6 +88,7 @@ List<link> symmetrised(const linkRows& rows)
     List<link> links;
     links.reserve(2 * rows.links.size());
     for (size_t i = 0; i < rows.end.size(); ++i)
+        // by hand: links are no list of neighbours
         for (label k = rows.start[i]; k < rows.end[i]; ++k)
         {
             link l = rows.links[k];
@@ -111,6 +113,7 @@ void imageEntries::build(const particleCloud& cloud, const neighbourList& list)
     for (label i = 0; i < n; ++i)
     {
         start[i] = label(entries.size());
+        // by hand: links are no list of neighbours
         for (label k = rows.start[i]; k < rows.end[i]; ++k)
         {
             const link& l = rows.links[k];

@@ -56,6 +56,7 @@ private:
             add(out, j, -w);
         });
         const size_t owned = out.column.size();
+        // by hand: the entries of images are no list of neighbours
         for (label k = images_.start[i]; k < images_.start[i + 1]; ++k)
             addImage(out, {first, owned}, images_.entries[k]);
 
