@@ -97,9 +97,8 @@ ISPF_HOT void graphRange(const view& v, const vec4* f, label begin, label end, v
 {
     for (label i = begin; i < end; ++i)
     {
-        const simd4 sum = sumNeighbours(v, v.row(i), simd4{}, [&](pairIndex k, label j) {
-            return -v.F[k] * (f[i].s - f[j].s);
-        });
+        const simd4 sum = sumNeighbours(
+            v, v.row(i), simd4{}, [&](pairIndex k, label j) { return v.F[k] * (f[j].s - f[i].s); });
         result[i].s = sum * inSpace;
     }
 }
