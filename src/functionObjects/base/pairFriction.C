@@ -100,10 +100,9 @@ public:
     {
         const particleCloud& cloud = state_.cloud;
         const neighbourList& list = state_.list;
-        for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
-        {
-            const label j = list.index[k], body = bodies_.of(i, j);
-            if (body < 0) continue;
+        forNeighbours<among::all>(list, i, [&](pairIndex k, label j) {
+            const label body = bodies_.of(i, j);
+            if (body < 0) return;
             const bool rigid = cloud.phase[j] == phaseType::rigid;
             const scalar both = rigid ? 2 * scale_[i] : scale_[i] + scale_[j];
             const vector xi = cloud.x[i].xyz(), xj = cloud.x[j].xyz();
@@ -112,7 +111,7 @@ public:
                              (rigid ? cloud.frictionOfRow(i) : counts) * (turn_[body] * (xi - xj));
             loads[body].add(0.5 * (xi + xj),
                             -case_.mu * cloud.volume() * both * sphc::viscousF(cloud, list, k) * u);
-        }
+        });
     }
 
 private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "approachLimit.H"
+#include "forPairs.H"
 
 #include <algorithm>
 #include <cmath>
@@ -53,14 +54,11 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
             for (label k = begin; k < end; ++k)
             {
                 const label i = first + k;
-                meets[k] = 0;
-                for (std::int64_t m = list.start[i]; m < list.wall[i] && !meets[k]; ++m)
-                {
-                    const label j = list.index[m];
+                meets[k] = anyNeighbour<among::media>(list, i, [&](pairIndex, label j) {
                     const simd4 d = cloud.x[i].s - cloud.x[j].s, dd = d * d;
-                    if (dd[0] + dd[1] + dd[2] < reach * reach)
-                        meets[k] = approachOf(cloud, i, j, closest, dt).lacks > 0;
-                }
+                    return dd[0] + dd[1] + dd[2] < reach * reach &&
+                           approachOf(cloud, i, j, closest, dt).lacks > 0;
+                });
             }
         });
         if (std::find(meets.begin(), meets.end(), 1) == meets.end()) break;
@@ -68,13 +66,12 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
         {
             const label i = first + k;
             if (!meets[k]) continue;
-            for (std::int64_t m = list.start[i]; m < list.wall[i]; ++m)
-            {
-                const label j = list.index[m], owner = cloud.ownerOf(j);
+            forNeighbours<among::media>(list, i, [&](pairIndex, label j) {
+                const label owner = cloud.ownerOf(j);
                 const auto [lacks, n] = approachOf(cloud, i, j, closest, dt);
                 const bool isSolid = owner < first;
                 const int free = !cloud.uFixed[i] + (!isSolid && !cloud.uFixed[owner]);
-                if (!(lacks > 0) || free == 0) continue;
+                if (!(lacks > 0) || free == 0) return;
                 const vector change = lacks / free * n;
                 if (!cloud.uFixed[i]) cloud.Up[i].s += vec4::from(change).s;
                 // an image of i itself goes with it
@@ -84,7 +81,7 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
                                                  : vector(cloud.ruleOf(j).R.transpose() * change))
                             .s;
                 ++exchanges;
-            }
+            });
         }
     }
     return exchanges;

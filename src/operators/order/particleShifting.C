@@ -18,23 +18,22 @@ ISPF_INLINE vector crowding(const particleCloud& cloud, const neighbourList& lis
 {
     simd4 sum = {};
     scalar rSum = 0;
-    for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
-    {
-        const simd4 d = cloud.x[i].s - cloud.x[list.index[k]].s;
+    forNeighbours<among::all>(list, i, [&](pairIndex, label j) {
+        const simd4 d = cloud.x[i].s - cloud.x[j].s;
         const scalar r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], r = std::sqrt(r2);
         sum += d / (r2 * r);
         rSum += r;
-    }
-    const scalar n = scalar(list.start[i + 1] - list.start[i]);
+    });
+    const scalar n = scalar(rowOf<among::all>(list, i).size());
     return rSum * rSum / (n * n) * vector(sum[0], sum[1], sum[2]);
 }
 
 // V sum_j grad W_ij, all neighbours of i
 ISPF_INLINE vector slopeOfSum(const particleCloud& cloud, const neighbourList& list, label i)
 {
-    simd4 sum = {};
-    for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
-        sum += list.F[k] * (cloud.x[i].s - cloud.x[list.index[k]].s);
+    const simd4 sum = sumNeighbours<among::all>(list, i, simd4{}, [&](pairIndex k, label j) {
+        return list.F[k] * (cloud.x[i].s - cloud.x[j].s);
+    });
     return {sum[0], sum[1], sum[2]};
 }
 
@@ -90,12 +89,10 @@ vector limitedChange(const particleCloud& cloud, const neighbourList& list, cons
 {
     const simd4 ui = cloud.Up[i].s;
     simd4 gx = {}, gy = {}, gz = {};
-    for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
-    {
-        const label j = list.index[k];
+    forNeighbours<among::same>(list, i, [&](pairIndex k, label j) {
         const simd4 g = list.F[k] * (cloud.x[i].s - cloud.x[j].s), e = cloud.Up[j].s - ui;
         gx += e * g[0], gy += e * g[1], gz += e * g[2];
-    }
+    });
     const vector w = B.transpose() * dr;
     const simd4 change = w[0] * gx + w[1] * gy + w[2] * gz;
     const vector v(change[0], change[1], change[2]);
@@ -103,14 +100,13 @@ vector limitedChange(const particleCloud& cloud, const neighbourList& list, cons
     if (size == 0) return v;
     const vector along = v / size;
     scalar high = 0;
-    const auto differs = [&](std::int64_t k) {
-        return along.dot(cloud.Up[list.index[k]].xyz() - cloud.Up[i].xyz());
-    };
-    for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k) high = std::max(high, differs(k));
+    const auto differs = [&](label j) { return along.dot(cloud.Up[j].xyz() - cloud.Up[i].xyz()); };
+    forNeighbours<among::same>(list, i,
+                               [&](pairIndex, label j) { high = std::max(high, differs(j)); });
     // a mirror image is as far beyond the wall as its source before it
-    for (std::int64_t k = list.wall[i]; k < list.start[i + 1]; ++k)
-        high = std::max(high,
-                        (cloud.phase[list.index[k]] == phaseType::mirror ? 0.5 : 1) * differs(k));
+    forNeighbours<among::walls>(list, i, [&](pairIndex, label j) {
+        high = std::max(high, (cloud.phase[j] == phaseType::mirror ? 0.5 : 1) * differs(j));
+    });
     return std::min(size, high) * along;
 }
 
@@ -167,7 +163,7 @@ scalar particleShifting::shift(particleCloud& cloud, const neighbourList& list,
         for (label k = begin; k < end; ++k)
         {
             const label i = first + k;
-            if (list.start[i] == list.start[i + 1] || (leaveAlone && leaveAlone(i))) continue;
+            if (rowOf<among::all>(list, i).size() == 0 || (leaveAlone && leaveAlone(i))) continue;
             vector dr = alpha * crowding(cloud, list, i) - beta * slopeOfSum(cloud, list, i);
             if (const scalar size = dr.norm(); size > most) dr *= most / size;
             shifts[k] = dr, v[k] = limitedChange(cloud, list, correction.same[i], i, dr);

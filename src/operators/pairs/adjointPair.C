@@ -19,6 +19,8 @@ struct view
     const vec4* x;
     const faceVectors& faces;
 
+    // Neighbours of i in the medium, but for those across an open face that gives the velocity
+    ISPF_INLINE pairRange row(label i) const { return {list.own[i], end[i]}; }
     // Components of the first nDims, and what lies behind them
     ISPF_INLINE simd4 face(std::int64_t k) const
     {
@@ -35,9 +37,9 @@ ISPF_HOT void gradientRange(const view& v, const vec4* phi, label begin, label e
     for (label i = begin; i < end; ++i)
     {
         const scalar pi = phi[i].s[3];
-        simd4 sum = {};
-        for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
-            sum += (phi[v.list.index[k]].s[3] - pi) * v.face(k);
+        const simd4 sum = sumNeighbours(v.list, v.row(i), simd4{}, [&](pairIndex k, label j) {
+            return (phi[j].s[3] - pi) * v.face(k);
+        });
         gp[i].s = sum * inSpace;
     }
 }
@@ -45,13 +47,9 @@ ISPF_HOT void gradientRange(const view& v, const vec4* phi, label begin, label e
 ISPF_INLINE simd4 plainGradient(const view& v, const vec4* phi, label i)
 {
     const scalar pi = phi[i].s[3];
-    simd4 sum = {};
-    for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
-    {
-        const label j = v.list.index[k];
-        sum += (v.list.F[k] * (phi[j].s[3] - pi)) * (v.x[i].s - v.x[j].s);
-    }
-    return sum;
+    return sumNeighbours(v.list, v.row(i), simd4{}, [&](pairIndex k, label j) {
+        return (v.list.F[k] * (phi[j].s[3] - pi)) * (v.x[i].s - v.x[j].s);
+    });
 }
 
 ISPF_HOT void divergenceRange(const view& v, const vec4* u, label begin, label end, scalar* div)
@@ -60,21 +58,18 @@ ISPF_HOT void divergenceRange(const view& v, const vec4* u, label begin, label e
     for (label i = begin; i < end; ++i)
     {
         const simd4 ui = u[i].s;
-        simd4 sum = {};
-        for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
-            sum += v.face(k) * (ui + u[v.list.index[k]].s);
+        const simd4 sum = sumNeighbours(v.list, v.row(i), simd4{}, [&](pairIndex k, label j) {
+            return v.face(k) * (ui + u[j].s);
+        });
         div[i] = sum[0] + sum[1] + inSpace * sum[2];
     }
 }
 
 ISPF_INLINE scalar wallPart(const view& v, const vec4* h, label i)
 {
-    simd4 sum = {};
-    for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
-    {
-        const label j = v.list.index[k];
-        sum += v.list.F[k] * (v.x[i].s - v.x[j].s) * (h[i].s + h[j].s);
-    }
+    const simd4 sum = sumNeighbours(v.list, v.row(i), simd4{}, [&](pairIndex k, label j) {
+        return v.list.F[k] * (v.x[i].s - v.x[j].s) * (h[i].s + h[j].s);
+    });
     return sum[0] + sum[1] + sum[2];
 }
 
@@ -87,14 +82,12 @@ ISPF_HOT void remainderRange(const view& v, const vec4* g, label begin, label en
         const simd4 gi = g[i].s, xi = v.x[i].s;
         simd4 moment = {};
         scalar sum = 0;
-        for (std::int64_t k = v.list.own[i]; k < v.end[i]; ++k)
-        {
-            const label j = v.list.index[k];
+        forNeighbours(v.list, v.row(i), [&](pairIndex k, label j) {
             const simd4 d = (v.x[j].s - xi) * inSpace, s = (gi + g[j].s) * d;
             const scalar jump = gi[3] - g[j].s[3] + 0.5 * (s[0] + s[1] + s[2]);
             const scalar weighted = -adjointPair::stabiliserWeight * v.list.F[k] * jump;
             sum += weighted, moment += weighted * d;
-        }
+        });
         m[i].s = moment, direct[i] = 2 * sum;
     }
 }
@@ -139,10 +132,11 @@ void adjointPair::setup(particleCloud& cloud, const neighbourList& list,
         parallelFor(n - first, [&](label begin, label end) {
             for (label i = first + begin; i < first + end; ++i)
             {
-                bool near = linearRow_[i] >= 0;
-                for (std::int64_t k = list.own[i]; k < (*within_.end)[i] && !near; ++k)
-                    near = linearRow_[cloud.ownerOf(list.index[k])] >= 0;
-                besideWall_[i] = near;
+                besideWall_[i] =
+                    linearRow_[i] >= 0 ||
+                    anyNeighbour(list, within_.connected(list, i), [&](pairIndex, label j) {
+                        return linearRow_[cloud.ownerOf(j)] >= 0;
+                    });
             }
         });
 
@@ -155,19 +149,18 @@ void adjointPair::setup(particleCloud& cloud, const neighbourList& list,
 tensor adjointPair::momentOf(label i) const
 {
     tensor sum = moment_[i];
-    for (std::int64_t k = list_->start[i]; k < (*within_.end)[i]; ++k)
-        sum += faces_.of(k) * (cloud_->x[list_->index[k]].xyz() - cloud_->x[i].xyz()).transpose();
+    forNeighbours(*list_, within_.row(*list_, i), [&](pairIndex k, label j) {
+        sum += faces_.of(k) * (cloud_->x[j].xyz() - cloud_->x[i].xyz()).transpose();
+    });
     return sum;
 }
 
 scalar adjointPair::cell(label i) const
 {
-    scalar sum = moment_[i].trace();
-    for (std::int64_t k = list_->start[i]; k < (*within_.end)[i]; ++k)
-    {
-        sum += faces_.of(k).dot(cloud_->x[list_->index[k]].xyz() - cloud_->x[i].xyz());
-    }
-    return sum / cloud_->nDims;
+    const auto term = [&](pairIndex k, label j) {
+        return faces_.of(k).dot(cloud_->x[j].xyz() - cloud_->x[i].xyz());
+    };
+    return sumNeighbours(*list_, within_.row(*list_, i), moment_[i].trace(), term) / cloud_->nDims;
 }
 
 // The arms to elements that p goes on linearly to make good what the fit leaves of (2.5): (3.13)
@@ -259,21 +252,18 @@ void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& dr
     List<size_t> group(cloud.entering.size());
     std::iota(group.begin(), group.end(), 0);
     for (const label i : cut)
-        for (std::int64_t k = list_->start[i]; k < list_->own[i]; ++k)
-            if (const size_t one = group[faceOf(list_->index[k])],
-                other = group[faceOf(list_->index[list_->start[i]])];
-                one != other)
-                std::replace(group.begin(), group.end(), std::max(one, other),
-                             std::min(one, other));
+        forNeighbours<among::cut>(*list_, i, [&](pairIndex, label j) {
+            const size_t one = group[faceOf(j)],
+                         other = group[faceOf(list_->index[list_->start[i]])];
+            std::replace(group.begin(), group.end(), std::max(one, other), std::min(one, other));
+        });
     List<scalar> lacks(group.size(), 0), area(group.size(), 0);
     for (size_t f = 1; f < group.size(); ++f) lacks[group[f]] -= cloud.entering[f];
     for (const label i : cut)
-        for (std::int64_t k = list_->start[i]; k < list_->own[i]; ++k)
-        {
-            const label j = list_->index[k];
+        forNeighbours<among::cut>(*list_, i, [&](pairIndex k, label j) {
             const vector a = 2 * cloud.volume() * faces_.of(k);
             lacks[group[faceOf(j)]] -= a.dot(velocity(i, j)), area[group[faceOf(j)]] += a.norm();
-        }
+        });
     const auto added = [&](size_t f) {  // [m/s]
         const bool known = std::isfinite(lacks[group[f]]) && area[group[f]] > 0;
         return known ? lacks[group[f]] / area[group[f]] : 0;
@@ -283,15 +273,13 @@ void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& dr
         for (label c = begin; c < end; ++c)
         {
             const label i = cut[c];
-            one[i] = kernelCorrection::of(cloud, *list_, i, list_->own[i], (*within_.end)[i]);
-            for (std::int64_t k = list_->start[i]; k < list_->own[i]; ++k)
-            {
-                const label j = list_->index[k];
+            one[i] = kernelCorrection::of(cloud, *list_, i, within_.connected(*list_, i));
+            forNeighbours<among::cut>(*list_, i, [&](pairIndex k, label j) {
                 const vector a = faces_.of(k), x = cloud.x[j].xyz() - cloud.x[i].xyz();
                 const scalar through = a.dot(velocity(i, j)) + a.norm() * added(faceOf(j));
                 faceFlux_[i] += 2 * through;
                 linear[i] += a * x.transpose(), drag[i].s += through * vec4::from(x).s;
-            }
+            });
         }
     });
 }

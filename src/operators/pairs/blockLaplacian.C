@@ -63,11 +63,10 @@ List<blockLaplacian::entry> blockLaplacian::pairs(label from, label to, label nM
     {
         const label own = block_[i];
         if (own < 0) continue;
-        for (std::int64_t k = g_.list.start[i]; k < (*g_.within.end)[i]; ++k)
-        {
-            const label j = g_.list.index[k], owner = cloud.ownerOf(j), other = block_[owner];
+        forNeighbours(g_.list, g_.within.row(g_.list, i), [&](pairIndex k, label j) {
+            const label owner = cloud.ownerOf(j), other = block_[owner];
             // within a block psi is the same
-            if ((other == own && j < cloud.n()) || (g_.inStrip[i] && g_.inStrip[owner])) continue;
+            if ((other == own && j < cloud.n()) || (g_.inStrip[i] && g_.inStrip[owner])) return;
             const scalar w = -g_.list.F[k];
             for (label d = 0; d < nMatrices; ++d)
             {
@@ -78,7 +77,7 @@ List<blockLaplacian::entry> blockLaplacian::pairs(label from, label to, label nM
                 const scalar turned = j < cloud.n() ? 1 : cloud.ruleOf(j).R(d, d);
                 entries.push_back({own, other, d, -w * turned});
             }
-        }
+        });
     }
     return entries;
 }

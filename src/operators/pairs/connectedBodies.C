@@ -24,8 +24,9 @@ connectedBodies::connectedBodies(const particleCloud& cloud, const neighbourList
         {
             const label i = reached.back();
             reached.pop_back();
-            for (std::int64_t k = list.start[i]; k < (*within.end)[i]; ++k)
-                if (const label j = cloud.ownerOf(list.index[k]); j >= within.first) reach(j);
+            forNeighbours(list, within.row(list, i), [&](pairIndex, label j) {
+                if (const label owner = cloud.ownerOf(j); owner >= within.first) reach(owner);
+            });
             if (const label k = cloud.stripOf(i); k > 0)
             {
                 for (const label j : strips[k]) reach(j);

@@ -57,6 +57,7 @@ struct view
     const vec4* psi;
     const scalar* share;  // by which faces are shortened
 
+    ISPF_INLINE pairRange row(label i) const { return {start[i], end[i]}; }
     // (2.3) over w_ij, its two parts
     ISPF_INLINE simd4 way(label i, label j) const { return (x[j].s - x[i].s) * inSpace; }
     ISPF_INLINE simd4 corrected(label i, label j, const simd4& d) const
@@ -72,12 +73,10 @@ ISPF_HOT void momentRange(const view& v, label begin, label end, columns* moment
     for (label i = begin; i < end; ++i)
     {
         simd4 m0 = {}, m1 = {}, m2 = {};
-        for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
-        {
-            const label j = v.index[k];
+        forNeighbours(v, v.row(i), [&](pairIndex k, label j) {
             const simd4 d = v.way(i, j), a = -v.F[k] * (v.corrected(i, j, d) + v.closing(i, j));
             m0 += a * d[0], m1 += a * d[1], m2 += a * d[2];
-        }
+        });
         moment[i] = {{m0, m1, m2}};
     }
 }
@@ -87,13 +86,9 @@ ISPF_HOT void openRange(const view& v, const vec4* b, label begin, label end, ve
 {
     for (label i = begin; i < end; ++i)
     {
-        simd4 sum = b[i].s * inSpace;
-        for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
-        {
-            const label j = v.index[k];
-            sum -= v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j));
-        }
-        left[i].s = sum;
+        left[i].s = sumNeighbours(v, v.row(i), b[i].s * inSpace, [&](pairIndex k, label j) {
+            return -v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j));
+        });
     }
 }
 
@@ -102,9 +97,8 @@ ISPF_HOT void graphRange(const view& v, const vec4* f, label begin, label end, v
 {
     for (label i = begin; i < end; ++i)
     {
-        simd4 sum = {};
-        for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
-            sum -= v.F[k] * (f[i].s - f[v.index[k]].s);
+        const simd4 sum = sumNeighbours(
+            v, v.row(i), simd4{}, [&](pairIndex k, label j) { return v.F[k] * (f[j].s - f[i].s); });
         result[i].s = sum * inSpace;
     }
 }
@@ -114,13 +108,10 @@ ISPF_HOT void sizeRange(const view& v, label begin, label end, scalar* size)
 {
     for (label i = begin; i < end; ++i)
     {
-        simd4 sum = {};
-        for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
-        {
-            const label j = v.index[k];
+        const simd4 sum = sumNeighbours(v, v.row(i), simd4{}, [&](pairIndex k, label j) {
             const simd4 f = v.corrected(i, j, v.way(i, j));
-            sum -= v.F[k] * f * f;
-        }
+            return -v.F[k] * f * f;
+        });
         size[i] = sum[0] + sum[1] + sum[2];
     }
 }
@@ -132,15 +123,13 @@ ISPF_HOT void writeRange(const view& v, const vec4* b, int nDims, label begin, l
     for (label i = begin; i < end; ++i)
     {
         simd4 sum = b[i].s * inSpace;
-        for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
-        {
-            const label j = v.index[k];
+        forNeighbours(v, v.row(i), [&](pairIndex k, label j) {
             const simd4 face = -v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j));
             sum += face;
             scalar* kept = a + nDims * k;
             kept[0] = face[0], kept[1] = face[1];
             if (nDims == 3) kept[2] = face[2];
-        }
+        });
         left[i].s = sum;
     }
 }
@@ -194,12 +183,11 @@ public:
             {
                 columns sum = {};
                 scalar all = 0;
-                for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
-                    if (const label j = list_.index[k]; j < cloud_.n() && closed_[j])
-                    {
-                        for (int a = 0; a < 3; ++a) sum.c[a] -= list_.F[k] * B_[j].c[a];
-                        all -= list_.F[k];
-                    }
+                forNeighbours(list_, within_.row(list_, i), [&](pairIndex k, label j) {
+                    if (j >= cloud_.n() || !closed_[j]) return;
+                    for (int a = 0; a < 3; ++a) sum.c[a] -= list_.F[k] * B_[j].c[a];
+                    all -= list_.F[k];
+                });
                 for (int a = 0; a < 3 && all > 0; ++a) B_[i].c[a] = sum.c[a] / all;
             }
     }
@@ -208,10 +196,10 @@ public:
     bool alone(label i) const
     {
         constexpr scalar least = 0.1;  // doc/constants.md
-        scalar sum = 0;
-        for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
-            sum -= list_.F[k] * (cloud_.x[list_.index[k]].xyz() - cloud_.x[i].xyz()).squaredNorm();
-        return sum < least * cloud_.nDims;
+        const auto term = [&](pairIndex k, label j) {
+            return -list_.F[k] * (cloud_.x[j].xyz() - cloud_.x[i].xyz()).squaredNorm();
+        };
+        return sumNeighbours(list_, within_.row(list_, i), 0.0, term) < least * cloud_.nDims;
     }
 
     void sweep(const List<tensor>& M, scalar relaxation)
@@ -321,13 +309,11 @@ public:
             if (!maybe) return;
             tensor sum = tensor::Zero();
             const view v = sight();
-            for (std::int64_t k = v.start[i]; k < v.end[i]; ++k)
-            {
-                const label j = v.index[k];
+            forNeighbours(v, v.row(i), [&](pairIndex k, label j) {
                 const simd4 f = v.corrected(i, j, v.way(i, j));
                 const vector a(f[0], f[1], f[2]);
                 sum -= v.F[k] * a * a.transpose();
-            }
+            });
             const Eigen::SelfAdjointEigenSolver<tensor> e(sum, Eigen::EigenvaluesOnly);
             if (e.eigenvalues()[2] > mostFace) share[i] = std::sqrt(mostFace / e.eigenvalues()[2]);
         });
@@ -419,9 +405,9 @@ private:
         {
             simd4 sum = {};
             for (const label i : s.members)
-                for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
-                    if (const label j = list_.index[k]; !inStrip_[cloud_.ownerOf(j)])
-                        sum += term(i, j, -list_.F[k]);
+                forNeighbours(list_, within_.row(list_, i), [&](pairIndex k, label j) {
+                    if (!inStrip_[cloud_.ownerOf(j)]) sum += term(i, j, -list_.F[k]);
+                });
             for (const label i : s.members) f[i].s = sum;
         }
     }
@@ -440,11 +426,9 @@ private:
         List<scalar> diagonal(cloud_.n(), 1);
         forMedium([&](label i) {
             scalar sum = 0;
-            for (std::int64_t k = list_.start[i]; k < (*within_.end)[i]; ++k)
-            {
-                const label other = cloud_.ownerOf(list_.index[k]);
-                if (!inStrip_[i] || !inStrip_[other]) sum -= list_.F[k];
-            }
+            forNeighbours(list_, within_.row(list_, i), [&](pairIndex k, label j) {
+                if (!inStrip_[i] || !inStrip_[cloud_.ownerOf(j)]) sum -= list_.F[k];
+            });
             if (sum > 0) diagonal[i] = sum;
             else if (inStrip_[i]) diagonal[i] = 0;
         });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "imageEntries.H"
+#include "forPairs.H"
 
 #include <algorithm>
 
@@ -44,6 +45,7 @@ struct linkRows
         if (start[i] == start[i + 1]) return;
         std::sort(links.begin() + start[i], links.begin() + start[i + 1], before);
         label to = start[i];
+        // by hand: the links of a row are moved within it
         for (label k = start[i] + 1; k < start[i + 1]; ++k)
             if (links[k].column == links[to].column && links[k].m == links[to].m)
                 links[to].w += links[k].w;
@@ -54,14 +56,12 @@ struct linkRows
 
 void appendLinks(const particleCloud& cloud, const neighbourList& list, label i, List<link>& links)
 {
-    for (std::int64_t k = list.own[i]; k < list.wall[i]; ++k)
-    {
-        const label j = list.index[k];
-        if (j < cloud.n()) continue;
+    forNeighbours<among::connected>(list, i, [&](pairIndex k, label j) {
+        if (j < cloud.n()) return;
         const scalar w = -2 * list.F[k];
         if (!negligible(w, cloud.dx))
             links.push_back({i, cloud.ghostSource(j), cloud.ruleOf(j).M(3, 3), w});
-    }
+    });
 }
 
 List<link> linksOf(const particleCloud& cloud, const neighbourList& list)
@@ -88,6 +88,7 @@ List<link> symmetrised(const linkRows& rows)
     List<link> links;
     links.reserve(2 * rows.links.size());
     for (size_t i = 0; i < rows.end.size(); ++i)
+        // by hand: links are no list of neighbours
         for (label k = rows.start[i]; k < rows.end[i]; ++k)
         {
             link l = rows.links[k];
@@ -112,6 +113,7 @@ void imageEntries::build(const particleCloud& cloud, const neighbourList& list)
     for (label i = 0; i < n; ++i)
     {
         start[i] = label(entries.size());
+        // by hand: links are no list of neighbours
         for (label k = rows.start[i]; k < rows.end[i]; ++k)
         {
             const link& l = rows.links[k];

@@ -7,16 +7,15 @@ namespace ispf
 namespace
 {
 
-// Adds sum g (x_j - x_i)^T = -sum F d d^T over [from, to), d = x_i - x_j
-ISPF_HOT void moment(const particleCloud& cloud, const neighbourList& list, label i,
-                     std::int64_t from, std::int64_t to, tensor& m)
+// Adds sum g (x_j - x_i)^T = -sum F d d^T over these neighbours, d = x_i - x_j
+ISPF_HOT void moment(const particleCloud& cloud, const neighbourList& list, label i, pairRange row,
+                     tensor& m)
 {
     simd4 cx = {}, cy = {}, cz = {};
-    for (std::int64_t k = from; k < to; ++k)
-    {
-        const simd4 d = cloud.x[i].s - cloud.x[list.index[k]].s, fd = -list.F[k] * d;
+    forNeighbours(list, row, [&](pairIndex k, label j) {
+        const simd4 d = cloud.x[i].s - cloud.x[j].s, fd = -list.F[k] * d;
         cx += fd * d[0], cy += fd * d[1], cz += fd * d[2];
-    }
+    });
     for (int a = 0; a < 3; ++a) m(a, 0) += cx[a], m(a, 1) += cy[a], m(a, 2) += cz[a];
 }
 
@@ -44,9 +43,9 @@ void kernelCorrection::build(const particleCloud& cloud, const neighbourList& li
         for (label i = begin; i < end; ++i)
         {
             tensor m = start;
-            moment(cloud, list, i, list.start[i], list.mid[i], m);
+            moment(cloud, list, i, rowOf<among::same>(list, i), m);
             same[i] = boundedInverse(m, leastEigenvalue, poorSame[i]);
-            moment(cloud, list, i, list.mid[i], list.start[i + 1], m);
+            moment(cloud, list, i, rowOf<among::others>(list, i), m);
             all[i] = boundedInverse(m, leastEigenvalue, poorAll[i]);
         }
     });
@@ -55,11 +54,11 @@ void kernelCorrection::build(const particleCloud& cloud, const neighbourList& li
 }
 
 tensor kernelCorrection::of(const particleCloud& cloud, const neighbourList& list, label i,
-                            std::int64_t from, std::int64_t to, scalar leastEigenvalue)
+                            pairRange row, scalar leastEigenvalue)
 {
     tensor m = vector(0, 0, cloud.nDims == 2 ? 1 : 0).asDiagonal();
     char poor = 0;
-    moment(cloud, list, i, from, to, m);
+    moment(cloud, list, i, row, m);
     return boundedInverse(m, leastEigenvalue, poor);
 }
 
@@ -69,7 +68,7 @@ List<tensor> kernelCorrection::from(const particleCloud& cloud, const neighbourL
     List<tensor> B(cloud.n());
     parallelFor(cloud.n(), [&](label from, label to) {
         for (label i = from; i < to; ++i)
-            B[i] = of(cloud, list, i, list.start[i], end[i], leastEigenvalue);
+            B[i] = of(cloud, list, i, {list.start[i], end[i]}, leastEigenvalue);
     });
     return B;
 }

@@ -16,21 +16,19 @@ constexpr scalar singular = 0.02;  // determinant of a correction moment
 // Neighbours of other phases
 ISPF_INLINE void addOthers(pairSums& sums, const stencil& s, const vec4* phi, label i)
 {
-    for (std::int64_t k = s.list.mid[i]; k < s.list.start[i + 1]; ++k)
-    {
-        const label j = s.list.index[k];
+    forNeighbours<among::others>(s.list, i, [&](pairIndex k, label j) {
         const simd4 g = s.list.F[k] * (s.cloud.x[i].s - s.cloud.x[j].s);
         simd4 e = phi[j].s - phi[i].s;
         if (s.cloud.phase[j] == phaseType::rigid) e *= withoutPressure;
         sums.gx += e * g[0], sums.gy += e * g[1], sums.gz += e * g[2];
         sums.lap += s.list.F[k] * e;
-    }
+    });
 }
 
 ISPF_INLINE pairSums rowSums(const stencil& s, const vec4* phi, label i)
 {
     pairSums sums;
-    sums.add(s.list, s.cloud.x.data(), phi, i, s.list.start[i], s.list.mid[i]);
+    sums.add(s.list, s.cloud.x.data(), phi, i, rowOf<among::same>(s.list, i));
     addOthers(sums, s, phi, i);
     return sums;
 }
@@ -40,13 +38,12 @@ tensor viscousCorrection(const stencil& s, label i)
 {
     tensor m = vector(0, 0, s.cloud.nDims == 2 ? 1 : 0).asDiagonal();
     bool stretched = false;
-    for (std::int64_t k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
-    {
-        const vector d = s.cloud.x[i].xyz() - s.cloud.x[s.list.index[k]].xyz();
+    forNeighbours<among::all>(s.list, i, [&](pairIndex k, label j) {
+        const vector d = s.cloud.x[i].xyz() - s.cloud.x[j].xyz();
         const scalar F = sphc::viscousF(s.cloud, s.list, k);
         stretched = stretched || F != s.list.F[k];
         m -= F * d * d.transpose();
-    }
+    });
     return stretched && m.determinant() > singular ? tensor(m.inverse()) : s.B.all[i];
 }
 

@@ -49,15 +49,14 @@ private:
     {
         const size_t first = out.column.size();
         scalar diagonal = images_.diagonal[i];
-        for (std::int64_t k = s_.list.own[i]; k < s_.list.wall[i]; ++k)
-        {
-            const label j = s_.list.index[k];
+        forNeighbours<among::connected>(s_.list, i, [&](pairIndex k, label j) {
             const scalar w = -2 * s_.list.F[k];
-            if (j >= s_.cloud.n() || negligible(w, s_.cloud.dx)) continue;
+            if (j >= s_.cloud.n() || negligible(w, s_.cloud.dx)) return;
             diagonal += w;
             add(out, j, -w);
-        }
+        });
         const size_t owned = out.column.size();
+        // by hand: the entries of images are no list of neighbours
         for (label k = images_.start[i]; k < images_.start[i + 1]; ++k)
             addImage(out, {first, owned}, images_.entries[k]);
 

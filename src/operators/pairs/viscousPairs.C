@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viscousPairs.H"
 
-#include "execution.H"
-
 namespace ispf
 {
 
@@ -14,10 +12,8 @@ ISPF_HOT void applyRange(const neighbourList& list, const scalar* K, const vec4*
 {
     for (label i = begin; i < end; ++i)
     {
-        simd4 sum = {};
-        for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
-            sum += K[k] * (phi[list.index[k]].s - phi[i].s);
-        result[i].s = sum;
+        result[i].s = sumNeighbours<among::all>(
+            list, i, simd4{}, [&](pairIndex k, label j) { return K[k] * (phi[j].s - phi[i].s); });
     }
 }
 
@@ -30,20 +26,11 @@ void viscousPairs::setup(const stencil& s)
     // a strip ends: its support is truncated, and so is that of its images
     for (label j = 0; j < s.cloud.nAll(); ++j)
         if (const label i = s.cloud.ownerOf(j); i >= 0 && s.cloud.beyondOpen(i)) c[j] = 1;
-    K_.resize(s.list.index.size()), sum_.resize(s.cloud.n());
-    parallelFor(s.cloud.n(), [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-        {
-            sum_[i] = 0;
-            for (std::int64_t k = s.list.start[i]; k < s.list.start[i + 1]; ++k)
-            {
-                const label j = s.list.index[k];
-                const scalar other = s.cloud.phase[j] == phaseType::rigid ? c[i] : c[j];
-                K_[k] = 0.5 * (c[i] + other) * s.cloud.friction(i, j) *
-                        sphc::viscousF(s.cloud, s.list, k);
-                sum_[i] += K_[k];
-            }
-        }
+    K_.resize(s.list.index.size()), sum_.assign(s.cloud.n(), 0);
+    forPairs<among::all>(s.list, 0, s.cloud.n(), [&](label i, pairIndex k, label j) {
+        const scalar other = s.cloud.phase[j] == phaseType::rigid ? c[i] : c[j];
+        K_[k] = 0.5 * (c[i] + other) * s.cloud.friction(i, j) * sphc::viscousF(s.cloud, s.list, k);
+        sum_[i] += K_[k];
     });
 }
 
@@ -67,9 +54,8 @@ viscousPairs::power viscousPairs::powerOf(const List<vec4>& u) const
             const simd4 ab = a * b;
             return ab[0] + ab[1] + ab[2];
         };
-        for (std::int64_t k = list_->start[i]; k < list_->start[i + 1]; ++k)
-        {
-            const label j = list_->index[k], owner = cloud.ownerOf(j);
+        forNeighbours<among::all>(*list_, i, [&](pairIndex k, label j) {
+            const label owner = cloud.ownerOf(j);
             const simd4 uj = u[j].s, e = K_[k] * (ui - uj);
             const scalar all = 2 * dot(e, ui), half = dot(e, ui - uj);
             const bool clamped = owner >= 0 && cloud.uFixed[owner] && !cloud.isFluid(owner);
@@ -79,7 +65,7 @@ viscousPairs::power viscousPairs::powerOf(const List<vec4>& u) const
             else if (cloud.phase[j] == phaseType::mirror)
                 sum.dissipated += half, sum.walls += all - half;
             else sum.dissipated += half;
-        }
+        });
     };
     const List<scalar> sums = blockSums(cloud.n(), 3, [&](label begin, label end, scalar* of) {
         power sum;
@@ -97,9 +83,9 @@ void viscousPairs::neighbours(const List<vec4>& phi, List<vec4>& result) const
         for (label i = begin; i < end; ++i)
         {
             simd4 sum = {};
-            for (std::int64_t k = list_->start[i]; k < list_->start[i + 1]; ++k)
-                if (const label j = list_->index[k]; cloud_->phase[j] != phaseType::rigid)
-                    sum += K_[k] * phi[j].s;
+            forNeighbours<among::all>(*list_, i, [&](pairIndex k, label j) {
+                if (cloud_->phase[j] != phaseType::rigid) sum += K_[k] * phi[j].s;
+            });
             result[i].s = sum;
         }
     });

@@ -19,11 +19,11 @@ struct view
 
     // visit(j, F_ij) of the rigid neighbours
     template <class Visit>
-    void forRigid(label i, Visit&& visit) const
+    void forRigid(label i, const Visit& visit) const
     {
-        for (std::int64_t k = list.mid[i]; k < list.start[i + 1]; ++k)
-            if (const label j = list.index[k]; cloud.phase[j] == phaseType::rigid)
-                visit(j, list.F[k]);
+        forNeighbours<among::walls>(list, i, [&](pairIndex k, label j) {
+            if (cloud.phase[j] == phaseType::rigid) visit(j, list.F[k]);
+        });
     }
 
     // Unit vector away from the wall, or zero
@@ -46,41 +46,41 @@ struct view
             wall += F * cloud.wallFactor(i, j) *
                     n.dot(cloud.x[i].xyz() - cloud.x[j].xyz() - depth[3] * depth.xyz());
         });
-        for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
-            if (const label j = list.index[k]; cloud.phase[j] != phaseType::rigid)
+        forNeighbours<among::all>(list, i, [&](pairIndex k, label j) {
+            if (cloud.phase[j] != phaseType::rigid)
                 fluid += list.F[k] * n.dot(cloud.x[i].xyz() - cloud.x[j].xyz());
+        });
         return wall < 0 ? std::clamp(-fluid / wall, 0.5, 2.0) : 1;
     }
 
     bool seesRigid(label i) const
     {
-        bool any = false;
-        forRigid(i, [&](label, scalar) { any = true; });
-        return any;
+        return anyNeighbour<among::walls>(
+            list, i, [&](pairIndex, label j) { return cloud.phase[j] == phaseType::rigid; });
     }
 
     // Place in the list of the particle's image in a wall, -1: none or several
-    std::int64_t ownImage(label i) const
+    pairIndex ownImage(label i) const
     {
-        std::int64_t found = -1;
-        for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
-        {
-            const label j = list.index[k];
-            if (j < cloud.n() || cloud.ghostSource(j) != i || !cloud.sticks(j)) continue;
-            if (found >= 0) return -1;
+        pairIndex found = -1;
+        const bool several = anyNeighbour<among::all>(list, i, [&](pairIndex k, label j) {
+            if (j < cloud.n() || cloud.ghostSource(j) != i || !cloud.sticks(j)) return false;
+            if (found >= 0) return true;
             found = k;
-        }
-        return found;
+            return false;
+        });
+        return several ? -1 : found;
     }
 
-    scalar atImage(label i, std::int64_t image) const
+    scalar atImage(label i, pairIndex image) const
     {
         const vector n = cloud.x[i].xyz() - cloud.x[list.index[image]].xyz();
         scalar others = 0;
-        for (std::int64_t k = list.start[i]; k < list.start[i + 1]; ++k)
+        forNeighbours<among::all>(list, i, [&](pairIndex k, label j) {
             if (k != image)
-                others += sphc::viscousF(cloud, list, k) *
-                          n.dot(cloud.x[i].xyz() - cloud.x[list.index[k]].xyz());
+                others +=
+                    sphc::viscousF(cloud, list, k) * n.dot(cloud.x[i].xyz() - cloud.x[j].xyz());
+        });
         const scalar own = sphc::viscousF(cloud, list, image) * n.squaredNorm();
         return own < 0 ? std::clamp(-others / own, 0.25, 4.0) : 1;
     }
@@ -99,7 +99,7 @@ void makeShearExact(particleCloud& cloud, const neighbourList& list)
     parallelFor(cloud.n(), [&](label begin, label end) {
         for (label i = std::max(begin, cloud.nSolid()); i < end; ++i)
         {
-            const std::int64_t own = mirrors ? v.ownImage(i) : -1;
+            const pairIndex own = mirrors ? v.ownImage(i) : -1;
             if (own < 0) scale[i] = v.atRigid(i);
             else if (!v.seesRigid(i)) image[i] = list.index[own], scale[i] = v.atImage(i, own);
         }

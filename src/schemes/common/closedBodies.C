@@ -17,9 +17,9 @@ constexpr scalar borderShare = 0.2;  // of a particle's neighbours
 bool amongItsOwn(const particleCloud& cloud, const neighbourList& list, label i)
 {
     label own = 0;
-    for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
-        own += cloud.zone[cloud.ownerOf(list.index[k])] == cloud.zone[i];
-    return 2 * own > list.mid[i] - list.start[i];
+    forNeighbours<among::same>(
+        list, i, [&](pairIndex, label j) { own += cloud.zone[cloud.ownerOf(j)] == cloud.zone[i]; });
+    return 2 * own > rowOf<among::same>(list, i).size();
 }
 
 struct zoneCount
@@ -50,9 +50,9 @@ List<char> bordersOf(const particleCloud& cloud, const neighbourList& list, labe
     for (label i = begin; i < end; ++i)
     {
         std::fill(seen.begin(), seen.end(), 0);
-        for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
-            ++seen[cloud.zone[cloud.ownerOf(list.index[k])]];
-        const scalar all = scalar(list.mid[i] - list.start[i]);
+        forNeighbours<among::same>(
+            list, i, [&](pairIndex, label j) { ++seen[cloud.zone[cloud.ownerOf(j)]]; });
+        const scalar all = scalar(rowOf<among::same>(list, i).size());
         for (label z = 0; z < nz; ++z)
             if (seen[z] > borderShare * all && seen[z] < (1 - borderShare) * all)
                 borders[cloud.zone[i] * nz + z] = 1;
@@ -122,8 +122,7 @@ List<char> drainedFluid(const particleCloud& cloud, const neighbourList& list,
     {
         const label i = next.back();
         next.pop_back();
-        for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
-            reach(cloud.ownerOf(list.index[k]));
+        forNeighbours<among::same>(list, i, [&](pairIndex, label j) { reach(cloud.ownerOf(j)); });
     }
     return drained;
 }

@@ -14,12 +14,9 @@ void ownGradient(const particleCloud& cloud, const neighbourList& list, const Li
     parallelFor(cloud.nSolid(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
-            simd4 g = {};
-            for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
-            {
-                const label j = list.index[k];
-                g += (list.F[k] * (gs[j].s[3] - gs[i].s[3])) * (cloud.x[i].s - cloud.x[j].s);
-            }
+            const simd4 g = sumNeighbours<among::same>(list, i, simd4{}, [&](pairIndex k, label j) {
+                return (list.F[k] * (gs[j].s[3] - gs[i].s[3])) * (cloud.x[i].s - cloud.x[j].s);
+            });
             gs[i].setXyz(same[i] * vector(g[0], g[1], g[2]));
         }
     });
@@ -31,17 +28,14 @@ ISPF_HOT void solidStabiliserRange(const neighbourList& list, const vec4* x, con
     for (label i = begin; i < end; ++i)
     {
         const simd4 gi = gs[i].s, xi = x[i].s, three = {1, 1, 1, 0};
-        simd4 sum = {};
-        for (std::int64_t k = list.start[i]; k < list.mid[i]; ++k)
-        {
-            const label j = list.index[k];
+        const simd4 sum = sumNeighbours<among::same>(list, i, simd4{}, [&](pairIndex k, label j) {
             const simd4 gj = gs[j].s;
             const scalar f = list.F[k] * tau[k];
             // lanes 0-2: -F tau (g_i + g_j) . x_ij; lane 3: 2 F tau (p_i - p_j)
             const simd4 d = (x[j].s - xi) * three;
             const simd4 dp = {0, 0, 0, 2 * (gi[3] - gj[3])};
-            sum += f * ((gi + gj) * d + dp);
-        }
+            return f * ((gi + gj) * d + dp);
+        });
         cp[i] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
 }
@@ -66,13 +60,9 @@ void coupledRows::setTau(const List<scalar>& tau, scalar fluidTau)
     const label nSolid = cloud_->nSolid();
     if (nSolid == 0) return;
     pairTau_.resize(list_->start[nSolid]);
-    parallelFor(nSolid, [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-            for (std::int64_t k = list_->start[i]; k < list_->mid[i]; ++k)
-            {
-                const scalar a = tau[i], b = tau[cloud_->ownerOf(list_->index[k])];
-                pairTau_[k] = 2 * a * b / (a + b);
-            }
+    forPairs<among::same>(*list_, 0, nSolid, [&](label i, pairIndex k, label j) {
+        const scalar a = tau[i], b = tau[cloud_->ownerOf(j)];
+        pairTau_[k] = 2 * a * b / (a + b);
     });
 }
 

@@ -77,15 +77,13 @@ void monolithicPreconditioner::buildLaplacian()
     const auto row = [&](label i, auto&& entry) {
         scalar d = 0;
         if (cloud.pHeld(i)) return d;
-        for (std::int64_t k = c.list.own[i]; k < c.list.wall[i]; ++k)
-        {
-            label j = c.list.index[k];
-            if (j >= n) j = cloud.ghostSource(j);
-            if (j == i) continue;
+        forNeighbours<among::connected>(c.list, i, [&](pairIndex k, label neighbour) {
+            const label j = cloud.ownerOf(neighbour);
+            if (j == i) return;
             const scalar a = -4 * c.list.F[k] * tau(i) * tau(j) / (tau(i) + tau(j));
             d += a;
             if (k < c.list.mid[i] && !cloud.pHeld(j)) entry(j, -a);
-        }
+        });
         return d;
     };
     L_.rowStart.assign(n + 1, 0), L_.diagonal.resize(n);

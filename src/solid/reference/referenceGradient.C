@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "referenceGradient.H"
+#include "forPairs.H"
 #include "messages.H"
-#include "execution.H"
 
 namespace ispf
 {
@@ -9,18 +9,16 @@ namespace ispf
 namespace
 {
 
-// Sum of w (x_j - x_i)(X_j - X_i)^T over the pairs [from, to) of row i that are no images
+// Sum of w (x_j - x_i)(X_j - X_i)^T over the pairs of row i that are no images
 ISPF_HOT void addOwn(const referenceNeighbours& pairs, const scalar* weight, const vec4* x,
                      const vec4* X, label i, tensor& S)
 {
     simd4 c0 = {}, c1 = {}, c2 = {};
     const simd4 xi = x[i].s, Xi = X[i].s;
-    for (std::int64_t k = pairs.start[i]; k < pairs.mid[i]; ++k)
-    {
-        const label j = pairs.index[k];
+    forNeighbours<among::same>(pairs, i, [&](pairIndex k, label j) {
         const simd4 R = X[j].s - Xi, d = weight[k] * (x[j].s - xi);
         c0 += d * R[0], c1 += d * R[1], c2 += d * R[2];
-    }
+    });
     for (int a = 0; a < 3; ++a) S(a, 0) += c0[a], S(a, 1) += c1[a], S(a, 2) += c2[a];
 }
 
@@ -30,12 +28,10 @@ ISPF_HOT void ownForce(const referenceNeighbours& pairs, const scalar* weight, c
 {
     simd4 sum = {}, arm = {};
     const simd4 Xi = X[i].s;
-    for (std::int64_t k = pairs.start[i]; k < pairs.mid[i]; ++k)
-    {
-        const label j = pairs.index[k];
+    forNeighbours<among::same>(pairs, i, [&](pairIndex k, label j) {
         const simd4 r = weight[k] * (X[j].s - Xi);
         arm += r, sum += A[3 * j].s * r[0] + A[3 * j + 1].s * r[1] + A[3 * j + 2].s * r[2];
-    }
+    });
     f = sum + A[3 * i].s * arm[0] + A[3 * i + 1].s * arm[1] + A[3 * i + 2].s * arm[2];
 }
 
@@ -44,12 +40,11 @@ vector imageForce(const referenceNeighbours& pairs, const structureReference& re
                   const scalar* weight, const List<tensor>& A, label i)
 {
     vector f = vector::Zero();
-    for (std::int64_t k = pairs.mid[i]; k < pairs.start[i + 1]; ++k)
-    {
+    forNeighbours<among::others>(pairs, i, [&](pairIndex k, label j) {
         const tensor& R = ref.images[pairs.image[k] - 1].R;
         const vector r = -weight[k] * pairs.separation(ref, i, k);
-        f += A[i] * r + R * (A[pairs.index[k]] * (R.transpose() * r));
-    }
+        f += A[i] * r + R * (A[j] * (R.transpose() * r));
+    });
     return f;
 }
 
@@ -70,13 +65,12 @@ referenceGradient::referenceGradient(const structureReference& ref)
             for (label i = begin; i < end; ++i)
             {
                 tensor moment = tensor::Zero();
-                for (std::int64_t k = pairs_.start[i]; k < pairs_.start[i + 1]; ++k)
-                {
+                forNeighbours<among::all>(pairs_, i, [&](pairIndex k, label) {
                     const vector r = pairs_.separation(ref, i, k);
                     const scalar w = std::max(1e-6, 1 - r.norm() / ref.support);
                     weight_[k] = w * w * w;
                     moment += weight_[k] * r * r.transpose();
-                }
+                });
                 if (ref.nDims == 2) moment(2, 2) = 0.5 * moment.trace();
                 const scalar mean = moment.trace() / 3;
                 if (!(moment.determinant() > 1e-4 * mean * mean * mean) || mean < 1e-9 * dx2)
@@ -99,12 +93,11 @@ void referenceGradient::evaluateRange(const List<vec4>& x, scalar shift, label b
     {
         tensor S = tensor::Zero();
         addOwn(pairs_, weight_.data(), x.data(), X_.data(), i, S);
-        for (std::int64_t k = pairs_.mid[i]; k < pairs_.start[i + 1]; ++k)
-        {
+        forNeighbours<among::others>(pairs_, i, [&](pairIndex k, label j) {
             const isometry& image = ref_.images[pairs_.image[k] - 1];
-            const vector xj = image.R * x[pairs_.index[k]].xyz() + shift * image.t;
+            const vector xj = image.R * x[j].xyz() + shift * image.t;
             S -= weight_[k] * (xj - x[i].xyz()) * pairs_.separation(ref_, i, k).transpose();
-        }
+        });
         F[i] = S * B_[i];
         if (ref_.nDims == 2) F[i](2, 2) = shift;
     }

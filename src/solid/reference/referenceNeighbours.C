@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "referenceNeighbours.H"
+#include "forPairs.H"
 #include "messages.H"
-#include "execution.H"
 
 #include <algorithm>
 
@@ -131,9 +131,7 @@ List<std::int64_t> referenceNeighbours::reverse(const structureReference& ref) c
     List<std::int64_t> found(index.size());
     const List<std::uint16_t> inverse = ref.inverseImages();
     for (label i = 0; i < n(); ++i)
-        for (std::int64_t p = start[i]; p < start[i + 1]; ++p)
-        {
-            const label j = index[p];
+        forNeighbours<among::all>(*this, i, [&](pairIndex p, label j) {
             const rowEntry wanted(image[p] ? inverse[image[p] - 1] + 1 : 0, i);
             std::int64_t low = start[j], high = start[j + 1];
             while (low < high)
@@ -148,7 +146,7 @@ List<std::int64_t> referenceNeighbours::reverse(const structureReference& ref) c
                     " see each other's images from one side only: they are exactly one "
                     "link radius apart. Change the radius by 1e-4");
             found[p] = low;
-        }
+        });
     return found;
 }
 

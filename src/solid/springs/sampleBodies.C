@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sampleBodies.H"
+#include "forPairs.H"
 #include "referenceNeighbours.H"
 
 #include <algorithm>
@@ -53,13 +54,11 @@ void pushApart(structureReference& ref)
 {
     const referenceNeighbours pairs(ref, ref.support);
     List<vector> next = ref.x0;
-    for (label i = 0; i < ref.n(); ++i)
-        for (std::int64_t p = pairs.start[i]; p < pairs.start[i + 1]; ++p)
-        {
-            const vector e = pairs.separation(ref, i, p);
-            const scalar q = 1 - e.norm() / ref.support;
-            next[i] += 0.25 * q * q * q * e;
-        }
+    forPairs<among::all>(pairs, 0, ref.n(), [&](label i, pairIndex p, label) {
+        const vector e = pairs.separation(ref, i, p);
+        const scalar q = 1 - e.norm() / ref.support;
+        next[i] += 0.25 * q * q * q * e;
+    });
     ref.x0 = next;
 }
 

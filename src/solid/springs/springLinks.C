@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "springLinks.H"
+#include "forPairs.H"
 #include "springModuli.H"
 #include "stiffnessFit.H"
 
@@ -60,9 +61,9 @@ springLinks::springLinks(const dictionary& dict, const structureReference& ref)
 {
     const word key = modulusKey(dict);
     d0.resize(size_t(pairs.nPairs())), k.assign(d0.size(), 1);
-    for (label i = 0; i < ref.n(); ++i)
-        for (std::int64_t p = pairs.start[i]; p < pairs.start[i + 1]; ++p)
-            d0[p] = pairs.separation(ref, i, p).norm();
+    forPairs<among::all>(pairs, 0, ref.n(), [&](label i, pairIndex p, label) {
+        d0[p] = pairs.separation(ref, i, p).norm();
+    });
     if (rule != "radius") checkLattice(dict, ref);
     if (rule == "lattice8")
         for (size_t p = 0; p < k.size(); ++p) k[p] = d0[p] < 1.2 * ref.dx ? 1 : 0.5;
@@ -84,17 +85,16 @@ springLinks::springLinks(const dictionary& dict, const structureReference& ref)
 void springLinks::checkLattice(const dictionary& dict, const structureReference& ref) const
 {
     for (label i = 0; i < ref.n(); ++i)
-        for (std::int64_t p = pairs.start[i]; p < pairs.start[i + 1]; ++p)
-        {
+        forNeighbours<among::all>(pairs, i, [&](pairIndex p, label j) {
             const scalar d = d0[p] / ref.dx;
             if (std::abs(d - 1) < latticeTolerance ||
                 std::abs(d - std::sqrt(2.0)) < std::sqrt(2.0) * latticeTolerance)
-                continue;
+                return;
             dict.fail("links", "solid particles " + std::to_string(i) + " and " +
-                                   std::to_string(pairs.index[p]) + " are " + str(d) +
+                                   std::to_string(j) + " are " + str(d) +
                                    " dx apart, which no lattice has. On relaxed particles use "
                                    "'links radius; radius 2.1;'");
-        }
+        });
 }
 
 void springLinks::setEqual(const dictionary& dict, const structureReference& ref)

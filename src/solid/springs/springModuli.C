@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "springModuli.H"
+#include "forPairs.H"
 
 #include <limits>
 
@@ -18,12 +19,11 @@ modulusTensor particleModulus(const structureReference& ref, const referenceNeig
                               const List<scalar>& k, label i)
 {
     modulusTensor C = modulusTensor::Zero();
-    for (std::int64_t p = pairs.start[i]; p < pairs.start[i + 1]; ++p)
-    {
+    forNeighbours<among::all>(pairs, i, [&](pairIndex p, label) {
         const vector d = pairs.separation(ref, i, p);
         const kelvinVector m = kelvin(d * d.transpose());
         C += k[p] / d.squaredNorm() * m * m.transpose();
-    }
+    });
     return C / (2 * ref.volume());
 }
 

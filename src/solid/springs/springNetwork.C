@@ -13,7 +13,7 @@
 // A link to an image of the particle itself has its -A R in an entry of column i: K_ii is no other than in a whole body.
 #include "springLinks.H"
 #include "structureModel.H"
-#include "execution.H"
+#include "forPairs.H"
 
 #include <algorithm>
 #include <set>
@@ -42,15 +42,15 @@ linkTable movingLinks(const springLinks& all, const List<char>& fixed)
     const referenceNeighbours& pairs = all.pairs;
     for (label i = 0; i < pairs.n(); ++i)
     {
-        for (std::int64_t p = pairs.start[i]; p < pairs.start[i + 1]; ++p)
-        {
-            if (p == pairs.mid[i]) links.mid.push_back(std::int64_t(links.index.size()));
-            if (fixed[i] && fixed[pairs.index[p]]) continue;
-            links.index.push_back(pairs.index[p]), links.image.push_back(pairs.image[p]);
+        const auto add = [&](pairIndex p, label j) {
+            if (fixed[i] && fixed[j]) return;
+            links.index.push_back(j), links.image.push_back(pairs.image[p]);
             links.d0.push_back(all.d0[p]), links.k.push_back(all.k[p]);
-        }
-        links.start.push_back(std::int64_t(links.index.size()));
-        if (pairs.mid[i] == pairs.start[i + 1]) links.mid.push_back(links.start.back());
+        };
+        forNeighbours<among::same>(pairs, i, add);
+        links.mid.push_back(pairIndex(links.index.size()));
+        forNeighbours<among::others>(pairs, i, add);
+        links.start.push_back(pairIndex(links.index.size()));
     }
     return links;
 }
@@ -58,12 +58,11 @@ linkTable movingLinks(const springLinks& all, const List<char>& fixed)
 ISPF_HOT void ownForce(const linkTable& links, const vec4* x, label i, simd4& f)
 {
     const simd4 xi = x[i].s;
-    for (std::int64_t p = links.start[i]; p < links.mid[i]; ++p)
-    {
-        const simd4 e = xi - x[links.index[p]].s;
+    forNeighbours<among::same>(links, i, [&](pairIndex p, label j) {
+        const simd4 e = xi - x[j].s;
         const scalar d = std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
         f -= links.k[p] * (1 - links.d0[p] / d) * e;
-    }
+    });
 }
 
 // A = k [(1 - g) n n^T + g I], g = 1 - d0/d
@@ -126,12 +125,11 @@ void springNetwork::makePattern()
                                        links_.index.begin() + links_.start[i + 1]);
         pattern_.column.insert(pattern_.column.end(), columns.begin(), columns.end());
         const label first = pattern_.rowStart.back(), last = label(pattern_.column.size());
-        for (std::int64_t p = links_.start[i]; p < links_.start[i + 1]; ++p)
-        {
-            const auto at = std::lower_bound(pattern_.column.begin() + first, pattern_.column.end(),
-                                             links_.index[p]);
+        forNeighbours<among::all>(links_, i, [&](pairIndex p, label j) {
+            const auto at =
+                std::lower_bound(pattern_.column.begin() + first, pattern_.column.end(), j);
             links_.slot[p] = label(at - pattern_.column.begin());
-        }
+        });
         pattern_.rowStart.push_back(last);
     }
     pattern_.value.assign(pattern_.column.size(), tensor::Zero());
@@ -149,11 +147,10 @@ void springNetwork::force(const List<vec4>& x, List<vec4>& f) const
                 simd4 sum = {};
                 ownForce(links_, x.data(), i, sum);
                 f[i].s = sum;
-                for (std::int64_t p = links_.mid[i]; p < links_.start[i + 1]; ++p)
-                {
+                forNeighbours<among::others>(links_, i, [&](pairIndex p, label) {
                     const vector e = separation(x, i, p);
                     f[i].s -= vec4::from(links_.k[p] * (1 - links_.d0[p] / e.norm()) * e).s;
-                }
+                });
             }
         },
         256);
@@ -164,11 +161,10 @@ scalar springNetwork::energy(const List<vec4>& x) const
     return parallelSum(n(), [&](label begin, label end) {
         scalar sum = 0;
         for (label i = begin; i < end; ++i)
-            for (std::int64_t p = links_.start[i]; p < links_.start[i + 1]; ++p)
-            {
+            forNeighbours<among::all>(links_, i, [&](pairIndex p, label) {
                 const scalar stretch = separation(x, i, p).norm() - links_.d0[p];
                 sum += 0.25 * links_.k[p] * stretch * stretch;
-            }
+            });
         return sum;
     });
 }
@@ -176,14 +172,10 @@ scalar springNetwork::energy(const List<vec4>& x) const
 void springNetwork::stress(const List<vec4>& x, List<tensor>& tau) const
 {
     tau.assign(size_t(n()), tensor::Zero());
-    parallelFor(n(), [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-            for (std::int64_t p = links_.start[i]; p < links_.start[i + 1]; ++p)
-            {
-                const vector e = separation(x, i, p);
-                const scalar weight = links_.k[p] * (1 - links_.d0[p] / e.norm());
-                tau[i] += weight / (2 * ref_.volume()) * e * e.transpose();
-            }
+    forPairs<among::all>(links_, 0, n(), [&](label i, pairIndex p, label) {
+        const vector e = separation(x, i, p);
+        const scalar weight = links_.k[p] * (1 - links_.d0[p] / e.norm());
+        tau[i] += weight / (2 * ref_.volume()) * e * e.transpose();
     });
 }
 
@@ -191,15 +183,14 @@ void springNetwork::tangentRow(const List<vec4>& x, bool positive, label i, bloc
 {
     K.diagonal[i].setZero();
     for (label s = K.rowStart[i]; s < K.rowStart[i + 1]; ++s) K.value[s].setZero();
-    for (std::int64_t p = links_.start[i]; p < links_.start[i + 1]; ++p)
-    {
+    forNeighbours<among::all>(links_, i, [&](pairIndex p, label) {
         const tensor A =
             linkBlock(separation(x, i, p), links_.k[p], links_.d0[p], positive, ref_.nDims);
         K.diagonal[i] += A;
         tensor& block = K.value[links_.slot[p]];
         if (links_.image[p]) block -= A * ref_.images[links_.image[p] - 1].R;
         else block -= A;
-    }
+    });
 }
 
 void springNetwork::assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const
@@ -218,8 +209,9 @@ scalar springNetwork::largest(const List<vec4>& x, const Value& value) const
     return maxOf(n(), [&](label begin, label end) {
         scalar most = -std::numeric_limits<scalar>::infinity();
         for (label i = begin; i < end; ++i)
-            for (std::int64_t p = links_.start[i]; p < links_.start[i + 1]; ++p)
+            forNeighbours<among::all>(links_, i, [&](pairIndex p, label) {
                 most = std::max(most, value(separation(x, i, p).norm(), links_.d0[p], links_.k[p]));
+            });
         return most;
     });
 }
@@ -238,7 +230,7 @@ linkStrain springNetwork::strain(const List<vec4>& x) const
 List<label> springNetwork::linkCounts() const
 {
     List<label> count;
-    for (label i = 0; i < n(); ++i) count.push_back(label(links_.start[i + 1] - links_.start[i]));
+    for (label i = 0; i < n(); ++i) count.push_back(label(rowOf<among::all>(links_, i).size()));
     return count;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stiffnessFit.H"
-#include "execution.H"
+#include "forPairs.H"
 #include "springModuli.H"
 
 #include <algorithm>
@@ -26,8 +26,8 @@ private:
     quarticTensor particleTensor(label i, const List<scalar>& s) const
     {
         quarticTensor C = quarticTensor::Zero();
-        for (std::int64_t p = pairs_.start[i]; p < pairs_.start[i + 1]; ++p)
-            C += s[p] * strength_[p] * linkTensor(i, p);
+        forNeighbours<among::all>(
+            pairs_, i, [&](pairIndex p, label) { C += s[p] * strength_[p] * linkTensor(i, p); });
         return C;
     }
     quarticTensor linkTensor(label i, std::int64_t p) const
@@ -72,16 +72,15 @@ fit::fit(const structureReference& ref, const referenceNeighbours& pairs, scalar
     for (const isometry& image : ref.images) rotation_.push_back(quarticTurn(image.R));
     scalar reach = 0;
     for (label i = 0; i < ref.n(); ++i)
-        for (std::int64_t p = pairs.start[i]; p < pairs.start[i + 1]; ++p)
+        forNeighbours<among::all>(pairs, i, [&](pairIndex p, label) {
             reach = std::max(reach, pairs.separation(ref, i, p).norm());
-    for (label i = 0; i < ref.n(); ++i)
-        for (std::int64_t p = pairs.start[i]; p < pairs.start[i + 1]; ++p)
-        {
-            const scalar d = pairs.separation(ref, i, p).norm(), q = 1 - d / (1.001 * reach);
-            weight_[p] = q * q * (3 - 2 * q);
-            weightSum_[i] += weight_[p];
-            strength_[p] = k[p] * d * d / (2 * ref.volume() * G);
-        }
+        });
+    forPairs<among::all>(pairs, 0, ref.n(), [&](label i, pairIndex p, label) {
+        const scalar d = pairs.separation(ref, i, p).norm(), q = 1 - d / (1.001 * reach);
+        weight_[p] = q * q * (3 - 2 * q);
+        weightSum_[i] += weight_[p];
+        strength_[p] = k[p] * d * d / (2 * ref.volume() * G);
+    });
     scale();
 }
 
@@ -113,8 +112,9 @@ void fit::localMean()
             for (label i = begin; i < end; ++i)
             {
                 mean_[i] = C_[i];
-                for (std::int64_t p = pairs_.start[i]; p < pairs_.start[i + 1]; ++p)
-                    mean_[i] += weight_[p] * turned(p, C_[pairs_.index[p]]);
+                forNeighbours<among::all>(pairs_, i, [&](pairIndex p, label j) {
+                    mean_[i] += weight_[p] * turned(p, C_[j]);
+                });
                 mean_[i] /= weightSum_[i];
             }
         },
@@ -130,11 +130,12 @@ void fit::gradient(List<scalar>& g)
             for (label i = begin; i < end; ++i)
             {
                 quarticTensor Q = mean_[i] / weightSum_[i];
-                for (std::int64_t p = pairs_.start[i]; p < pairs_.start[i + 1]; ++p)
-                    Q += weight_[p] / weightSum_[pairs_.index[p]] *
-                         turned(p, mean_[pairs_.index[p]]);
-                for (std::int64_t p = pairs_.start[i]; p < pairs_.start[i + 1]; ++p)
+                forNeighbours<among::all>(pairs_, i, [&](pairIndex p, label j) {
+                    Q += weight_[p] / weightSum_[j] * turned(p, mean_[j]);
+                });
+                forNeighbours<among::all>(pairs_, i, [&](pairIndex p, label) {
                     half_[p] = strength_[p] * linkTensor(i, p).dot(Q);
+                });
             }
         },
         256);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solidSides.H"
+#include "forPairs.H"
 
 #include <algorithm>
 
@@ -27,15 +28,13 @@ bool solidSides::beyondWall(label i) const
 {
     scalar nearest = 1e30;
     bool beyond = false;
-    for (std::int64_t k = list_.mid[i]; k < list_.start[i + 1]; ++k)
-    {
-        const label j = list_.index[k];
-        if (cloud_.phase[j] != phaseType::rigid) continue;
+    forNeighbours<among::walls>(list_, i, [&](pairIndex, label j) {
+        if (cloud_.phase[j] != phaseType::rigid) return;
         const vector way = cloud_.x[i].xyz() - cloud_.x[j].xyz();
         const vec4& d = cloud_.ghostDepth(j);
         if (way.norm() < nearest)
             nearest = way.norm(), beyond = d[3] > 0 && d.xyz().dot(way) <= d[3];
-    }
+    });
     return beyond;
 }
 
@@ -63,24 +62,23 @@ int solidSides::mirroredZone(label i, label j) const
 vector solidSides::wayAhead(label i, const vector& n) const
 {
     scalar sum = 0, moment = 0;
-    for (std::int64_t k = list_.mid[i]; k < list_.start[i + 1]; ++k)
-    {
-        const label j = list_.index[k];
+    forNeighbours<among::others>(list_, i, [&](pairIndex k, label j) {
         const scalar d = (cloud_.x[j].xyz() - cloud_.x[i].xyz()).dot(n);
         if (d > 0 && fluidZone(cloud_, j) >= 0) sum += list_.F[k] * d, moment += list_.F[k] * d * d;
-    }
+    });
     return sum != 0 ? vector(0.5 * moment / sum * n) : vector(0.5 * cloud_.dx * n);
 }
 
 solidSides::sides solidSides::of(label i) const
 {
     sides s;
-    const bool beyond = owned_ && beyondWall(i);
+    if (owned_ && beyondWall(i)) return s;
     const scalar V = cloud_.volume(), least = 2e-3 * V / cloud_.dx;  // below it is out of sight
     List<vector> areas(cloud_.zones.size(), vector::Zero());
-    for (std::int64_t k = list_.mid[i]; k < list_.start[i + 1] && !beyond; ++k)
-        if (const int z = mirroredZone(i, list_.index[k]); z >= 0)
-            areas[z] += 2 * V * list_.F[k] * (cloud_.x[i].xyz() - cloud_.x[list_.index[k]].xyz());
+    forNeighbours<among::others>(list_, i, [&](pairIndex k, label j) {
+        if (const int z = mirroredZone(i, j); z >= 0)
+            areas[z] += 2 * V * list_.F[k] * (cloud_.x[i].xyz() - cloud_.x[j].xyz());
+    });
     for (const int k : {0, 1})
     {
         const auto most =

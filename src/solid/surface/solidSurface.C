@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solidSurface.H"
 #include "followWeights.H"
+#include "forPairs.H"
 #include "imagedPoints.H"
 #include "solidSides.H"
 #include "surfaceCover.H"
@@ -60,7 +61,8 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
     if (feet_[0].start.empty()) findFeet(cloud, kernel.support(), images);
     const label nSolid = cloud.nSolid();
     start_.assign(nSolid + 1, 0);
-    for (label i = 0; i < nSolid; ++i) start_[i + 1] = start_[i] + list.start[i + 1] - list.mid[i];
+    for (label i = 0; i < nSolid; ++i)
+        start_[i + 1] = start_[i] + rowOf<among::others>(list, i).size();
     for (const int s : {0, 1}) part_[s].resize(nSolid), weight_[s].assign(start_[nSolid], 0);
     parallelFor(
         nSolid,
@@ -107,10 +109,10 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
         for (label i = 0; i < cloud.nSolid(); ++i)
         {
             for (const label k : near[i])
-                f.source.push_back(solids.source[k]), f.image.push_back(solids.image[k]);
+                f.index.push_back(solids.source[k]), f.image.push_back(solids.image[k]);
             f.weight.insert(f.weight.end(), weight[i].begin(), weight[i].end());
             for (const vector& g : slope[i]) f.slope.push_back(g / reach);
-            f.start.push_back(label(f.source.size()));
+            f.start.push_back(label(f.index.size()));
         }
     }
 }
@@ -122,8 +124,9 @@ tensor solidSurface::gradientAtFoot(int s, label i) const
     const feet& f = feet_[s];
     const vector from = cloud_->x[i].xyz();
     tensor F = vector(0, 0, cloud_->nDims == 2).asDiagonal();
-    for (label k = f.start[i]; k < f.start[i + 1]; ++k)
-        F += (map_[f.image[k]](cloud_->x[f.source[k]].xyz()) - from) * f.slope[k].transpose();
+    forNeighbours<among::all>(f, i, [&](pairIndex k, label j) {
+        F += (map_[f.image[k]](cloud_->x[j].xyz()) - from) * f.slope[k].transpose();
+    });
     return F;
 }
 
@@ -131,8 +134,9 @@ tensor solidSurface::rateAtFoot(int s, label i, const List<vec4>& u) const
 {
     const feet& f = feet_[s];
     tensor rate = tensor::Zero();
-    for (label k = f.start[i]; k < f.start[i + 1]; ++k)
-        rate += map_[f.image[k]].R * u[f.source[k]].xyz() * f.slope[k].transpose();
+    forNeighbours<among::all>(f, i, [&](pairIndex k, label j) {
+        rate += map_[f.image[k]].R * u[j].xyz() * f.slope[k].transpose();
+    });
     return rate;
 }
 
@@ -147,8 +151,8 @@ vector solidSurface::velocityAtFoot(int s, label i, const List<vec4>& u) const
     if (cloud_->uFixed[i]) return u[i].xyz();
     const feet& f = feet_[s];
     vector at = vector::Zero();
-    for (label k = f.start[i]; k < f.start[i + 1]; ++k)
-        at += f.weight[k] * (map_[f.image[k]].R * u[f.source[k]].xyz());
+    forNeighbours<among::all>(
+        f, i, [&](pairIndex k, label j) { at += f.weight[k] * (map_[f.image[k]].R * u[j].xyz()); });
     return at;
 }
 
@@ -195,17 +199,15 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
         // F = J (cof F)^-T, and det cof F = J^2
         part.e = std::sqrt(cofactor[i].determinant()) * cofactor[i].inverse().transpose() * part.e0;
         scalar sum = 0;
-        const label m = label(start_[i + 1] - start_[i]);
         scalar* w = weight_[s].data() + start_[i];
-        for (label q = 0; q < m; ++q)
-        {
-            const label j = list_->index[list_->mid[i] + q];
-            if (fluidZone(cloud, j) != part.side) continue;
-            w[q] = kernel.W((cloud.x[i].xyz() - cloud.x[j].xyz()).norm());
-            sum += w[q];
-        }
+        const pairRange row = rowOf<among::others>(*list_, i);
+        forNeighbours(*list_, row, [&](pairIndex k, label j) {
+            if (fluidZone(cloud, j) != part.side) return;
+            w[k - row.first] = kernel.W((cloud.x[i].xyz() - cloud.x[j].xyz()).norm());
+            sum += w[k - row.first];
+        });
         if (sum == 0) part.side = -1;  // it sees no fluid: no load, no flux
-        for (label q = 0; q < m && sum > 0; ++q) w[q] /= sum;
+        for (pairIndex q = 0; q < row.size() && sum > 0; ++q) w[q] /= sum;
     }
 }
 
@@ -224,10 +226,11 @@ void solidSurface::loads(const List<vec4>& up, List<vec4>& Q, List<tensor>& P) c
                 {
                     const sided& part = part_[s][i];
                     if (part.side < 0) continue;
-                    scalar p = 0;
                     const scalar* w = weight_[s].data() + start_[i];
-                    for (std::int64_t k = list_->mid[i]; k < list_->start[i + 1]; ++k)
-                        p += *w++ * up[list_->index[k]].s[3];
+                    const pairRange row = rowOf<among::others>(*list_, i);
+                    const scalar p = sumNeighbours(*list_, row, 0.0, [&](pairIndex k, label j) {
+                        return w[k - row.first] * up[j].s[3];
+                    });
                     Q[i].s += p * vec4::from(part.S).s;
                     P[i] += p * perVolume * part.S * part.e0.transpose();
                 }
@@ -245,8 +248,10 @@ void solidSurface::forShares(const Visit& visit) const
         {
             if (part_[s][i].side < 0) continue;
             const scalar* w = weight_[s].data() + start_[i];
-            for (std::int64_t k = list_->mid[i]; k < list_->start[i + 1]; ++k, ++w)
-                if (*w != 0) visit(i, part_[s][i], list_->index[k], *w);
+            const pairRange row = rowOf<among::others>(*list_, i);
+            forNeighbours(*list_, row, [&](pairIndex k, label j) {
+                if (w[k - row.first] != 0) visit(i, part_[s][i], j, w[k - row.first]);
+            });
         }
 }
 

@@ -77,7 +77,7 @@ rows rowsOf(particleCloud& cloud, const neighbourList::visibility& visible)
     for (label i = 0; i < cloud.n(); ++i)
     {
         pairSums sums;
-        sums.add(list, cloud.x.data(), cloud.Up.data(), i, list.start[i], list.start[i + 1]);
+        sums.add(list, cloud.x.data(), cloud.Up.data(), i, rowOf<among::all>(list, i));
         result.div.push_back(sums.divergence(B.all[i]));
         result.grad.push_back(vec4::from(B.all[i] * sums.gradient(3)));
     }
