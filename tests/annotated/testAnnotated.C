@@ -229,17 +229,28 @@ TEST_CASE("every annotated key is one that a program asks for")
     CHECK(n > 120);
 }
 
-TEST_CASE(
-    "defaults that structures hold are the annotated ones, of each as of an entry that is absent")
+TEST_CASE("defaults that structures hold are the annotated ones, solvers.p absent or empty")
 {
     const dictionary all =
         dictionary::fromFile((annotated::root() / "etc/caseDicts/annotated/sphSolution").string());
-    const solverControls absent = solverControls::fromDict(dictionary()),
-                         given = solverControls::fromDict(all.subDict("solvers").subDict("p"));
-    CHECK(absent.tolerance == given.tolerance);
-    CHECK(absent.relTol == given.relTol);
-    CHECK(absent.absTol == given.absTol);
-    CHECK(absent.maxIter == given.maxIter);
+    const word source =
+        readText((annotated::root() / "src/schemes/projection/fractionalStep.C").string());
+    std::smatch found;
+    REQUIRE(std::regex_search(source, found,
+                              std::regex(R"re(defaultPressureSolver\s*=\s*"([^"]*)")re")));
+    const dictionary withoutP = dictionary::fromString(found[1], "default of solvers.p");
+    const dictionary p = all.subDict("solvers").subDict("p");
+    for (const word key : {"solver", "preconditioner"})
+        CHECK(withoutP.get<word>(key) == p.get<word>(key));
+    const solverControls given = solverControls::fromDict(p);
+    for (const dictionary& d : {withoutP, dictionary()})
+    {
+        const solverControls absent = solverControls::fromDict(d);
+        CHECK(absent.tolerance == given.tolerance);
+        CHECK(absent.relTol == given.relTol);
+        CHECK(absent.absTol == given.absTol);
+        CHECK(absent.maxIter == given.maxIter);
+    }
     multigridOptions options;
     options.read(all.subDict("monolithic").subDict("multigrid"));
     CHECK(options.coarsestSize == multigridOptions().coarsestSize);
