@@ -237,7 +237,7 @@ TEST_CASE("defaults that structures hold are the annotated ones, solvers.p absen
         readText((annotated::root() / "src/schemes/projection/fractionalStep.C").string());
     std::smatch found;
     REQUIRE(std::regex_search(source, found,
-                              std::regex(R"(defaultPressureSolver\s*=\s*"([^"]*)")")));
+                              std::regex(R"re(defaultPressureSolver\s*=\s*"([^"]*)")re")));
     const dictionary withoutP = dictionary::fromString(found[1], "default of solvers.p");
     const dictionary p = all.subDict("solvers").subDict("p");
     for (const word key : {"solver", "preconditioner"})

@@ -65,7 +65,7 @@ TEST_CASE("a long pipe drawn in strips: a piece per dx^2 or two")
     CHECK(label(facets.size()) < 2 * sum.size / (dx * dx));
 }
 
-TEST_CASE("a slice of an edge drawn far finer than dx: lengths in the plane, two sides apart")
+TEST_CASE("a thick slice of an edge drawn far finer than dx: lengths in the plane, two sides apart")
 {
     triSurface s;
     s.addPatch("edge");
@@ -73,8 +73,8 @@ TEST_CASE("a slice of an edge drawn far finer than dx: lengths in the plane, two
         for (const scalar y : {0.0, 0.2 * dx})
         {
             const scalar a = 0.01 * k * dx, b = a + 0.01 * dx, top = y > 0 ? a : b;
-            s.add({a, y, 0}, {b, y, 0}, {top, y, dx}, 0);
-            s.add({a + b - top, y, 0}, {b, y, dx}, {a, y, dx}, 0);
+            s.add({a, y, 0}, {b, y, 0}, {top, y, 20 * dx}, 0);
+            s.add({a + b - top, y, 0}, {b, y, 20 * dx}, {a, y, 20 * dx}, 0);
         }
     const integrals sum = sumOf(facetsOf(s, dx, 2));
     CHECK(sum.size == relative(20 * dx, 0.01));

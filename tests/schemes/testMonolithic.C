@@ -226,7 +226,7 @@ TEST_CASE("the coupled system solved by FGMRES agrees with a direct solution")
     coupledSystem& system = first.system;
     List<vec4> force;
     c.structure->force(c.cloud.x, force);
-    monolithicPreconditioner M(system, dictionary());
+    monolithicPreconditioner M(system, monolithicPreconditioner::entries(dictionary()));
     M.setup(c.cloud.x);
     List<scalar> q(c.cloud.n(), 0), b;
     for (label i = 0; i < c.cloud.n(); ++i)

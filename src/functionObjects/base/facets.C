@@ -15,7 +15,7 @@ namespace
 
 constexpr scalar longestEdge = 1.5;  // [dx] the fluid is looked at in the middle of each triangle
 constexpr scalar slender = 8;        // longest over shortest edge: halving would cut the width, too
-constexpr scalar small = 0.25;       // [dx^2], [dx] in two dimensions
+constexpr scalar small = 0.25;       // [dx^2] in three dimensions; edges are cheap in two
 constexpr scalar alike = 0.9;        // cosine between normals of what becomes one
 constexpr scalar offset = 0.37;      // [dx] of the cells, as walls often lie on multiples of dx
 
@@ -65,12 +65,6 @@ void cut(const corners& t, scalar dx, List<facet>& facets)
         const scalar along = 2 * (b * b * b - a * a * a) / (3 * share);
         facets.push_back({tip + along * way, share * area});
     }
-}
-
-// [dx^2], [dx] in two dimensions
-scalar sizeOf(const facet& f, scalar dx, int nDims)
-{
-    return f.area.norm() / (nDims == 2 ? dx : dx * dx);
 }
 
 List<facet> gathered(const List<facet>& facets, scalar dx)
@@ -129,8 +123,9 @@ List<facet> facetsOf(triSurface s, scalar dx, int nDims)
         if (isSlender(cornersOf(s, t), dx)) cut(cornersOf(s, t), dx, parts);
     if (nDims == 2)
         for (List<facet>* all : {&facets, &parts}) flatten(*all, box.max[2] - box.min[2]);
-    const auto rest = std::stable_partition(
-        facets.begin(), facets.end(), [&](const facet& f) { return sizeOf(f, dx, nDims) > small; });
+    const auto rest = std::stable_partition(facets.begin(), facets.end(), [&](const facet& f) {
+        return nDims == 2 || f.area.norm() > small * dx * dx;
+    });
     parts.insert(parts.end(), rest, facets.end());
     facets.erase(rest, facets.end());
     for (const facet& f : gathered(parts, dx)) facets.push_back(f);
