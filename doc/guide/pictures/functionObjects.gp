@@ -23,7 +23,7 @@ set output "volFieldValue.png"; set ylabel "mean U of the flap [m/s]"
 plot flap("flapMean/0/volFieldValue.dat") using 1:2 with lines linestyle 1 title "x", "" using 1:3 with lines linestyle 2 title "y"
 set output "patchFlux.png"; set ylabel "flux [m2/s]"; set key bottom right
 plot flap("outflow/0/patchFlux.dat") using 1:2 with lines linestyle 1 title "patch outlet", \
-     flap("section/0/patchFlux.dat") using 1:($2/0.5e-3) every 10 with points pointtype 6 linecolor rgb "#c0392b" title "surface outlet, over dx"
+     flap("section/0/patchFlux.dat") using 1:2 every 10 with points pointtype 6 linecolor rgb "#c0392b" title "surface outlet"
 set output "forces.png"; set ylabel "force [N/m]"; set key top right
 plot flap("load/0/force.dat") using 1:2 with lines linestyle 1 title "x, total", "" using 1:8 with lines linestyle 2 title "x, viscous"
 set output "surfaceLeaks.png"; set ylabel "particles"; set yrange [-0.2:*]; set key top left

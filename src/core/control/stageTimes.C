@@ -35,7 +35,7 @@ word stageTimes::table()
                       whole > 0 ? 100 * seconds / whole : 0);
         return word(text);
     };
-    word text = "Time by the clock, and share of the run:\n";
+    word text = "Stages of the run, seconds by the clock and share:\n";
     for (const stage& s : stages_) text += line(s.name, s.seconds);
     return text + line("together", whole);
 }
