@@ -29,7 +29,7 @@ check() { # what the run is called
     [ "$(extract Time '^Time = ' 'Time = ' | awk '{ printf "%s ", $2 }')" = "0.01 0.02 0.03 0.04 " ] || fail "$1: times"
     [ "$(tail -n 1 log)" = End ] || fail "$1: End"
     # what each stage and function object has taken, all of it together
-    sed -n '/^Time by the clock/,/^$/p' log > table
+    sed -n '/^Stages of the run/,/^$/p' log > table
     for stage in start neighbours "rest of the steps" "function object speed"; do
         grep -qE "^    $stage +[0-9.]+ s +[0-9.]+ %$" table || fail "$1: no time of $stage: $(cat table)"
     done
