@@ -76,7 +76,11 @@ public:
         refine(surface_, c.cloud.dx);
         const boundBox box = surface_.bounds();
         if (c.cloud.nDims == 2) depth_ = box.max[2] - box.min[2];
-        for (label t = 0; t < surface_.size(); ++t) centres_.push_back(surface_.centre(t));
+        for (label t = 0; t < surface_.size(); ++t)
+        {
+            centres_.push_back(surface_.centre(t));
+            if (c.cloud.nDims == 2) centres_.back()[2] = 0;  // there the particles are
+        }
     }
 
     void write() override
