@@ -37,7 +37,7 @@ printed() {
                    open = sub(/ *\.\.\.$/, "", text[k])
                    delete a; delete b
                    want = split1(text[k], a); found = 0
-                   timing = text[k] ~ /ExecutionTime|at this pace/
+                   timing = text[k] ~ /ExecutionTime|take [0-9.]+ min/
                    for (l = 1; l <= nLines && !found; ++l) {
                        have = split1(lines[l], b)
                        if (open ? index(have, want) != 1 : have != want) continue

@@ -46,7 +46,7 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
     images_ = s.group.symmetryFactor();
     if (inflow::given(dict))
     {
-        dict.found("backflow");  // may stay when the pressure goes
+        for (const word key : {"backflow", "outlet"}) dict.found(key);  // may stay when p goes
         inflow_ = std::make_unique<inflow>(
             dict, caseFolder,
             inflow::place{mesh_, s.isHeld, images_, outward,
