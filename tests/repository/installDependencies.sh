@@ -17,7 +17,7 @@ tree="$scratch/a tree"
 mkdir -p "$scratch/bin" "$tree/bin" "$tree/tests/one" "$tree/tutorials/ispfFsiFoam/hemisphereCappedCylinder"
 cp "$root/bin/installDependencies" "$root/bin/demo" "$tree/bin/"
 cp "$root/Makefile" "$tree/"
-touch "$tree/tests/one/one.C"
+touch "$tree/tests/one/main.C"
 program() { { echo "#!/bin/sh"; cat; } > "$1"; chmod +x "$1"; }
 program "$tree/tutorials/ispfFsiFoam/hemisphereCappedCylinder/Allrun" <<< 'echo Allrun $* >> "$scratch/did"'
 program "$tree/bin/runTests" <<< 'echo runTests >> "$scratch/did"'
