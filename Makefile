@@ -88,8 +88,8 @@ reverse   = $(if $(1),$(call reverse,$(wordlist 2,$(words $(1)),$(1))) $(firstwo
 closure   = $(sort $(1) $(foreach u,$(1),$(call closure,$(USES_$(u)))))
 ordered   = $(filter $(call closure,$(1)),$(LIBS))
 quoted    = $(foreach l,$(1),-iquote src/$(l))
-archives  = $(foreach l,$(call reverse,$(LIBS)),$(B)/lib/$(l).a)
-archivesOf= $(foreach l,$(call reverse,$(call ordered,$(1))),$(B)/lib/$(l).a)
+archives  = $(foreach l,$(call reverse,$(LIBS)),$(if $(wildcard src/$(l)/*.C),$(B)/lib/$(l).a))
+archivesOf= $(foreach l,$(call reverse,$(call ordered,$(1))),$(if $(wildcard src/$(l)/*.C),$(B)/lib/$(l).a))
 group     = $(if $(filter $(1) $(1)/%,$(LIBS)),$(filter $(1) $(1)/%,$(LIBS)) $(ALSO_$(1)))
 
 .PHONY: all test validate validateLong fuzz demo bench clean help format
@@ -103,7 +103,7 @@ OBJ_$(1) := $$(patsubst %.C,$(B)/%.o,$$(wildcard src/$(1)/*.C))
 $$(OBJ_$(1)): INC = $$(call quoted,$$(call ordered,$(1)))
 $(B)/lib/$(1).a: $$(OBJ_$(1))
 	@mkdir -p $$(@D); rm -f $$@; ar rcs $$@ $$^
-all: $(B)/lib/$(1).a
+all: $$(if $$(wildcard src/$(1)/*.C),$(B)/lib/$(1).a)
 OBJECTS += $$(OBJ_$(1))
 endef
 $(foreach l,$(LIBS),$(eval $(call LIBRARY,$(l))))
