@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What lies behind the face resists the flow:
+// The vessels behind the face resist the flow:
 //
 //     outside { type open; outlet resistance; p 0; resistance 1e8; }      // p + resistance Q
 //

@@ -9,14 +9,14 @@
 //     `flux` in the last step and `volume` since the case began, out is positive; and the particles that the modelled
 //     part of an open face has `created` and `deleted`.  Of a cyclic patch: the fluid that passes, positive along the
 //     separation.  Walls that stand and symmetry planes pass nothing: zero.
-// surface: the integral of U.n over constant/triSurface/<surface>.stl, U fitted to the particles at
-//     the middle of triangles no longer than dx; positive along their normals; in two dimensions per metre along z.  `covered` is the share of
-//     its area that particles are near enough to; the rest counts nothing.
+// surface: the integral of U.n over constant/triSurface/<surface>.stl, U fitted to the particles in the middle of its facets
+//     (facets.H); positive along their normals; in two dimensions per metre along z.  `covered` is the share of its area
+//     that particles are near enough to; the rest counts nothing.
 #include "functionObject.H"
 
 #include "dataFile.H"
+#include "facets.H"
 #include "fieldSampler.H"
-#include "surfaceRefinement.H"
 #include "trackedSurface.H"
 #include <cmath>
 
@@ -63,7 +63,8 @@ class sampledFlux : public functionObject
 public:
     sampledFlux(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, dict, c),
-          surface_(readSurface(dict.get<word>("surface"), c, dict.where("surface"))),
+          facets_(facetsOf(readSurface(dict.get<word>("surface"), c, dict.where("surface")),
+                           c.cloud.dx, c.cloud.nDims)),
           U_(c.cloud, "U", dict.where()),
           sampler_(dict, c),
           file_(table(
@@ -71,37 +72,28 @@ public:
               {"Flow through the surface " + dict.get<word>("surface") + ", along its normals"},
               {"flux", "covered"}, 9))
     {
-        if (!(surface_.area() > 0)) dict.fail("surface", "This surface has no area.");
-        surface_.weld(1e-3 * c.cloud.dx);
-        refine(surface_, c.cloud.dx);
-        const boundBox box = surface_.bounds();
-        if (c.cloud.nDims == 2) depth_ = box.max[2] - box.min[2];
-        for (label t = 0; t < surface_.size(); ++t)
-        {
-            centres_.push_back(surface_.centre(t));
-            if (c.cloud.nDims == 2) centres_.back()[2] = 0;  // there the particles are
-        }
+        for (const facet& f : facets_) centres_.push_back(f.centre), area_ += f.area.norm();
+        if (!(area_ > 0)) dict.fail("surface", "This surface has no area.");
     }
 
     void write() override
     {
         sampler_.update(centres_);
         scalar flux = 0, covered = 0;
-        for (label t = 0; t < surface_.size(); ++t)
+        for (size_t k = 0; k < facets_.size(); ++k)
         {
-            const vector U = sampler_.sampleVector(U_, t), area = surface_.areaVector(t);
+            const vector U = sampler_.sampleVector(U_, label(k)), &area = facets_[k].area;
             if (std::isnan(U[0])) continue;
             flux += U.dot(area), covered += area.norm();
         }
-        file_.begin(case_.time.value())
-            << flux / depth_ * case_.walls->symmetryFactor() << covered / surface_.area();
+        file_.begin(case_.time.value()) << flux * case_.walls->symmetryFactor() << covered / area_;
         file_.endRow();
     }
 
 private:
-    triSurface surface_;
-    scalar depth_ = 1;  // along z of the slice in two dimensions [m]
+    List<facet> facets_;
     List<vector> centres_;
+    scalar area_ = 0;
     particleField U_;
     fieldSampler sampler_;
     dataFile file_;

@@ -72,7 +72,7 @@ struct outlook
     word rule;  // of the least
 };
 
-// What is given tells how fast the fluid will be, a profile's peak over its mean left aside
+// Walls and faces tell how fast the fluid will be; the peak of a profile over its mean is left aside
 outlook lookAhead(const fsiCase& c, const couplingScheme& coupling)
 {
     const Time& time = c.time;
