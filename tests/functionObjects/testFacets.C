@@ -55,6 +55,15 @@ TEST_CASE("strips, broad and narrow: area and centre are kept, in no more pieces
     }
 }
 
+TEST_CASE("one slender triangle: its pieces have its centroid")
+{
+    triSurface s;
+    const vector a(0, 0, 0), b(40 * dx, 0, 0), c(40 * dx, 0.6 * dx, 0);
+    s.add(a, b, c, s.addPatch("triangle"));
+    const integrals sum = sumOf(facetsOf(s, dx, 3));
+    CHECK((sum.moment / sum.size - (a + b + c) / 3).norm() < 1e-12);
+}
+
 TEST_CASE("a long pipe drawn in strips: a piece per dx^2 or two")
 {
     const scalar R = 12 * dx, length = 100 * dx;
