@@ -110,8 +110,8 @@ void adjointPair::setup(particleCloud& cloud, const neighbourList& list,
     moment_ = walls_.moment;
     for (label i = first; i < label(solidB.size()); ++i)
         b[i].s += solidB[i].s, moment_[i] += solidMoment[i];
-    List<vec4>& psi = cloud.vectors["closure"];
-    psi.resize(n, vec4{});
+    const faceVectors::fitted psi = {&cloud.vectors["closure1"], &cloud.vectors["closure2"],
+                                     &cloud.vectors["closure"]};
     closure_ = faces_.build(cloud, list, within_, b, moment_, psi, tolerance_);
 
     free_ = cloud.freeDirections();

@@ -216,12 +216,12 @@ public:
         takeInside(), fillB();
     }
 
-    // psi of the step before, where it is known.  Not before the first sweep: B shall depend on where particles are
+    // Starts from the psi that the same fit found in the step before, if there is one
     void takePsi(const List<vec4>& psi)
     {
-        const label known = label(psi.size());
+        if (psi.empty()) return;
         forMedium([&](label i) {
-            if ((closed_[i] || cloud_.stripOf(i) > 0) && i < known) psi_[i] = psi[i];
+            if (closed_[i] || cloud_.stripOf(i) > 0) psi_[i] = psi[i];
         });
         for (const strip& s : strips_)
         {
@@ -322,9 +322,10 @@ public:
         share_ = std::move(share);
     }
 
+    void keepPsi(List<vec4>& psi) const { psi.assign(psi_.begin(), psi_.begin() + cloud_.n()); }
+
     // Once closed.  What is left is less its mean over each body, so that a level of p has no gradient
-    void write(const List<vec4>& b, faceVectors& faces, List<vec4>& psi,
-               faceVectors::closure& result) const
+    void write(const List<vec4>& b, faceVectors& faces, faceVectors::closure& result) const
     {
         List<vec4>& c = faces.left;
         faces.nDims = cloud_.nDims;
@@ -342,7 +343,6 @@ public:
         }
         result.defect = cloud_.dx * std::sqrt(squares / std::max<label>(1, nClosed));
         removeMeans(c, [](label) { return true; });
-        psi.assign(psi_.begin(), psi_.begin() + cloud_.n());
         faces.poor = poor_, faces.bodies = bodies_;
     }
 
@@ -516,24 +516,25 @@ private:
 
 faceVectors::closure faceVectors::build(const particleCloud& cloud, const neighbourList& list,
                                         const medium& within, const List<vec4>& b,
-                                        const List<tensor>& M, List<vec4>& psi, scalar tolerance)
+                                        const List<tensor>& M, const fitted& psi, scalar tolerance)
 {
-    // How often B and psi are fitted; the least eigenvalue that the sweeps' relaxation is made for; what may be left open
-    // until the last time, over the tolerance (doc/constants.md)
-    constexpr int fits = 3;
+    // The least eigenvalue that the sweeps' relaxation is made for; what may be left open until the last time, over the
+    // tolerance (doc/constants.md)
     constexpr scalar least = 0.4, loosely = 100;
     closure result;
     builder faces(cloud, list, within);
     faces.start(M);
     for (int k = 1; k <= fits; ++k)
     {
+        List<vec4>& ofFit = *psi[k - 1];
         faces.sweep(
             M, 2 / (1 + least + (1 - least) * std::cos(M_PI * (k - 0.5) / fits)));  // Chebyshev's
-        if (k == 1) faces.takePsi(psi);
+        faces.takePsi(ofFit);
         if (k == fits) faces.shorten();
         faces.close(b, k == fits ? tolerance : loosely * tolerance, result);
+        faces.keepPsi(ofFit);
     }
-    faces.write(b, *this, psi, result);
+    faces.write(b, *this, result);
     return result;
 }
 
