@@ -255,7 +255,7 @@ struct openFace::slopeBefore
 };
 
 // Carries the slope of the pressure on to the strip.  Where p is given, the strip takes the velocity before the surface,
-// averaged over 1.5 dx along it.  With a wider mean the flow along the surface would run into a wall or away from it, because
+// averaged over 1.5 dx along it.  With a wider mean the flow along the surface would run into a wall or away from it:
 // nothing in the strip holds it back.  Where the velocity is given, the strip takes p before the surface, without effect
 void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, scalar rho,
                             scalar dt) const

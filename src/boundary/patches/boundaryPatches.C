@@ -14,7 +14,7 @@ void boundary::content::addPatch(const word& name, const dictionary& dict, const
     const word type = dict.choose("type", {"wall", "symmetryPlane", "cyclic", "open"});
     const label index = label(balance.size());
     balance.push_back({name});
-    for (const word key : {"point", "normal"}) dict.found(key);  // generateParticles asks for them
+    for (const word key : {"point", "normal"}) dict.found(key);  // generateParticles reads them
     if (type == "symmetryPlane")
         group.addSymmetryPlane(name, dict.get<vector>("point", dims::length),
                                nonZero(dict, "normal"));
@@ -36,7 +36,7 @@ void boundary::content::addPatch(const word& name, const dictionary& dict, const
     }
 }
 
-// The rows of the solid know nothing of a pressure that differs between a pair's sides
+// fatalError if a solid reaches over a pair with a pressure drop: its rows allow no difference of p between the sides
 void boundary::content::checkDrops(const dictionary& patches, const particleCloud& cloud,
                                    scalar support) const
 {
@@ -76,7 +76,8 @@ void boundary::content::findLeavingWalls(const dictionary& patches, scalar dx)
         }
 }
 
-// What moves over a cyclic plane does not come back at the other: there would be a gap, and the fluid would leave
+// fatalError if a moving wall passes a cyclic plane: it does not come back at the other plane, and fluid would leave by the
+// gap
 void boundary::content::checkLeavingWalls(scalar t, scalar dx) const
 {
     for (const leavingWall& one : leaving)
@@ -109,7 +110,7 @@ bool isPlane(const dictionary& dict)
 
 }  // namespace
 
-// A plane ends at walls, at symmetry planes and cyclic sides, and at other open faces that are planes
+// The mesh of an open face.  A plane ends at walls, symmetry planes, cyclic sides and other open planes
 faceMesh boundary::content::meshOf(const word& name, const dictionary& patches,
                                    const word& caseFolder, const particleCloud& cloud) const
 {
@@ -163,7 +164,7 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
 namespace
 {
 
-// An open face that gives the velocity, and its strip
+// An open face that gives the velocity, with the sites of its strip
 struct givingFace
 {
     const openFace& face;
@@ -177,7 +178,7 @@ bool meets(const givingFace& g, const wallSet& walls, label w, scalar dx)
                        [&](const vector& x) { return walls.distance(w, frame.toBody(x)) < dx; });
 }
 
-// Do they meet, and give velocities along different directions there?
+// True if the two faces meet and give velocities of different directions there
 bool clash(const givingFace& g, const givingFace& other, scalar dx)
 {
     pointGrid grid(2 * dx);
@@ -220,7 +221,8 @@ void boundary::content::findRims(const dictionary& patches, const siteFile& site
     }
 }
 
-// Particles that two faces bring in would be carried into each other; one may take out what the other brings
+// fatalError if two faces that meet both bring fluid in: their particles would run into each other.  One may bring in what
+// the other takes out
 void boundary::content::setStep(const stepTimes& times)
 {
     for (openFace& face : openFaces) face.setStep(times.start, times.end, times.pressures);
