@@ -79,7 +79,7 @@ void fsiCase::readProperties()
                          physical.where(hasMu ? "mu" : "rho"));
     mu = hasMu ? physical.getInRange("mu", 0, 1e30, dims::dynamicViscosity)
                : rho * physical.getInRange("nu", 0, 1e30, dims::kinematicViscosity);
-    // one incompressible system for all zones: a second density has no place in it
+    // all zones are one incompressible system with one density
     const dictionary zoneRho = physical.subOrEmptyDict("zoneDensities");
     for (const word& zone : zoneRho.keys())
     {
@@ -120,7 +120,7 @@ List<vector> fsiCase::bodyForceAt(scalar t) const
 
 void fsiCase::readKernel()
 {
-    // 3D projection: what the paper's numbers imply, h = dx; else Wendland C2 at h = 1.3 dx
+    // 3D projection: h = dx, which the numbers of the paper imply; else Wendland C2 at h = 1.3 dx
     const bool paper =
         cloud.nDims == 3 &&
         solution.getOrDefault<word>("coupling", cloud.nSolid() > 0 ? "monolithic" : "projection") ==
@@ -140,7 +140,7 @@ void fsiCase::readKernel()
                          " dx: too few neighbours. It must be 1.8 dx at least, better 2 to 3");
 }
 
-// Particles that the pattern's entries join, without bodies that are clamped somewhere
+// Sets of particles that the pattern's entries join, without sets that have a clamped particle
 static List<List<label>> freeBodies(const blockMatrix3& pattern, const List<char>& fixed)
 {
     const label n = label(pattern.rowStart.size()) - 1;
@@ -197,8 +197,8 @@ scalar fsiCase::stepEnd(scalar now) const
     return time.endTime() > now ? std::min(end, time.endTime()) : end;
 }
 
-// Neighbours in memory are neighbours in space, near enough for ten steps.  Counted with the state, so that
-// a run continued from it keeps the order
+// Sorts fluid so that neighbours in space are neighbours in memory; this holds for ten steps.  The count is a part of the
+// state, so that a continued run keeps the order
 void fsiCase::sortParticles()
 {
     constexpr scalar interval = 10;
@@ -207,8 +207,8 @@ void fsiCase::sortParticles()
     cloud.clearGhosts();
 }
 
-// Fluid that got out through a gap between patches and has nothing around it takes no part any more: whenever there is
-// more of it, that is said
+// Counts fluid without neighbours: it has left through a gap between patches and takes no part any more.  Warns
+// whenever the number has grown
 void fsiCase::countStrays()
 {
     label n = 0, last = 0;
@@ -240,8 +240,8 @@ void fsiCase::updateNeighbours(const stepTimes& times, scalar behind)
     countStrays();
 }
 
-// A body whose centre has passed a cyclic plane goes on at the other, as a whole: only differences of its positions
-// count, also for links to its own images
+// A body whose centre has passed a cyclic plane is moved to the other plane as a whole.  Only differences of its positions
+// matter, also for links to its own images
 void fsiCase::carrySolids()
 {
     for (const List<label>& body : bodies_)
