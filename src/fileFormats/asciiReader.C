@@ -355,7 +355,7 @@ List<word> asciiStateFiles(const word& folder)
         const asciiReader reader(folder);
         for (const auto& [name, ignored] : reader.sums()) files.push_back(folder + "/" + name);
     }
-    catch (const fatalError&)  // the file cannot be used any more
+    catch (const fatalError&)  // an unreadable state: its fields stay
     {
     }
     return files;
