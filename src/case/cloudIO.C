@@ -270,9 +270,8 @@ void writeCloud(Time& time, const particleCloud& cloud, const boundary& walls)
     time.writeState();  // last: where this file is, the particles are complete, unless somebody has removed them
 
     const List<word> purge = time.toPurge();
-    for (const word file :
-         {"particles.hdf", "particles.vtp"})  // first in the series, then the files
-        writeSeriesOf(time, file, purge);
+    // first in the series, then the files
+    for (const word file : {"particles.hdf", "particles.vtp"}) writeSeriesOf(time, file, purge);
     for (const word& folder : purge) fs::remove_all(time.caseFolder() + "/" + folder);
 }
 

@@ -17,8 +17,8 @@ namespace
 {
 
 constexpr size_t headerBytes = 80, recordBytes = 50;
-constexpr scalar largest =
-    1e40;  // the range of single precision ends there; volumes are still finite
+// the range of single precision ends there; volumes are still finite
+constexpr scalar largest = 1e40;
 
 bool isBlank(char c)
 {

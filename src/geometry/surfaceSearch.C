@@ -46,8 +46,8 @@ scalar meets(const std::array<vector, 3>& t, const vector& a, const vector& d)
     const vector e1 = t[1] - t[0], e2 = t[2] - t[0], h = d.cross(e2);
     const scalar det = e1.dot(h);
     if (std::abs(det) <= 1e-14 * d.norm() * e1.norm() * e2.norm()) return none;
-    constexpr scalar slack =
-        1e-9;  // so that a segment through a shared edge meets one of its triangles
+    // so that a segment through a shared edge meets one of its triangles
+    constexpr scalar slack = 1e-9;
     const vector s = a - t[0], q = s.cross(e1);
     const scalar u = s.dot(h) / det, v = d.dot(q) / det, f = e2.dot(q) / det;
     if (u < -slack || v < -slack || u + v > 1 + slack || f < 0 || f > 1) return none;

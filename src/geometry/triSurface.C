@@ -160,9 +160,8 @@ static List<label> firstEqual(const List<vector>& nodes)
 // Per node: the first kept node within the tolerance
 static List<label> firstNear(const List<vector>& nodes, const boundBox& box, scalar tolerance)
 {
-    nodeGrid grid(
-        box.min,
-        std::max(tolerance, 1e-12 * box.diagonal()));  // wide enough that cells can be numbered
+    // wide enough that cells can be numbered
+    nodeGrid grid(box.min, std::max(tolerance, 1e-12 * box.diagonal()));
     List<label> first(nodes.size());
     for (size_t n = 0; n < nodes.size(); ++n)
     {

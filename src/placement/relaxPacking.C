@@ -22,8 +22,8 @@ constexpr scalar narrowRate = 0.12;
 constexpr label correctionInterval = 12;  // iterations between additions and removals
 constexpr scalar roomAtBirth = 0.6;       // in dx, to the next particle
 constexpr scalar tolerableSum = 0.035;    // deviation of a kernel sum that calls for a correction
-constexpr scalar pair =
-    0.45;  // in dx: two particles nearer than this, held in a corner, never part
+// in dx: two particles nearer than this, held in a corner, never part
+constexpr scalar pair = 0.45;
 
 class relaxation
 {

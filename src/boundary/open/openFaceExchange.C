@@ -15,8 +15,8 @@ namespace
 constexpr scalar closest = 0.75;   // [dx] no particle is put nearer than this to another one
 constexpr scalar offWalls = 0.35;  // [dx] nor nearer than this to a wall
 constexpr scalar missingHere = 0.25, missingAround = 0.5;  // particles, see openFace.H
-constexpr scalar widest =
-    1.4;  // [dx] a hole of this radius is filled even if no particle is missing
+// [dx] a hole of this radius is filled even if no particle is missing
+constexpr scalar widest = 1.4;
 
 }  // namespace
 

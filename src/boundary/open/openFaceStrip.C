@@ -198,9 +198,8 @@ struct openFace::valueBefore
 // Data for the slope of the pressure, summed over the fluid whose feet share a square of dx
 struct openFace::slopeBefore
 {
-    using sums = Eigen::Matrix<
-        scalar, 8,
-        1>;  // 1, acceleration of the near fluid; 1, friction of the fluid further before
+    // 1, acceleration of the near fluid; 1, friction of the fluid further before
+    using sums = Eigen::Matrix<scalar, 8, 1>;
     struct bin
     {
         scalar n = 0;

@@ -170,8 +170,8 @@ void limitTo(const processLimits& limits)
     };
     most(RLIMIT_CORE, 0);
     most(RLIMIT_CPU, std::ceil(limits.cpuSeconds));
-    size_t pages =
-        0;  // pages that the process has already: AddressSanitizer takes terabytes at start
+    // pages that the process has already: AddressSanitizer takes terabytes at start
+    size_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     if (limits.memory > 0 && pages > 0)
         most(RLIMIT_AS, scalar(pages) * scalar(sysconf(_SC_PAGESIZE)) + scalar(limits.memory));

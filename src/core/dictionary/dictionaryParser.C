@@ -175,8 +175,8 @@ void dictionaryParser::parseHeader(const token& key, source& in)
 void dictionaryParser::parseValueTokens(const token& key, source& in, List<token>& value)
 {
     List<token> open;
-    bool inBlock =
-        false;  // Gauss multivariateSelection { fu vanLeer; };  a value ends with its block
+    // Gauss multivariateSelection { fu vanLeer; };  a value ends with its block
+    bool inBlock = false;
     for (;;)
     {
         const token t = in.take();

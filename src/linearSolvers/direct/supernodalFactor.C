@@ -14,8 +14,8 @@ namespace
 
 constexpr label nParts = 16;      // of the tree below `top_`; a fixed number
 constexpr label blockWidth = 64;  // columns of a supernode in one pass
-constexpr label rowGrain = 128,
-                columnGrain = 16;  // least rows and columns of a block for one thread
+// least rows and columns of a block for one thread
+constexpr label rowGrain = 128, columnGrain = 16;
 
 // y -= A x for rows [begin, end) of A, n columns that are `stride` apart
 ISPF_HOT void subtractProduct(const float* A, label stride, label begin, label end, label n,

@@ -10,8 +10,8 @@ namespace ispf
 namespace
 {
 
-constexpr scalar oneSided =
-    0.9;  // least |sum F n| over sum |F| with which the rigid neighbours count as one wall
+// least |sum F n| over sum |F| with which the rigid neighbours count as one wall
+constexpr scalar oneSided = 0.9;
 
 struct view
 {

@@ -163,8 +163,8 @@ void enclosedFluid::dropLevel(List<vec4>& up) const
 
 void enclosedFluid::keepLevel(const particleCloud& cloud, List<scalar>& z) const
 {
-    const label others =
-        label(bodies_.size());  // index of all particles that are in no free body, solids included
+    // index of all particles that are in no free body, solids included
+    const label others = label(bodies_.size());
     List<scalar> change(others + 1, 0), n(others + 1, 0);
     const auto groupOf = [&](label i) {
         const label b = cloud.isFluid(i) ? bodyOf_[cloud.zone[i]] : -1;

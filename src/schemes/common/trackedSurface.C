@@ -119,8 +119,8 @@ void trackedSurface::findApex(const boundary& walls)
         apex_ += 0.5 * part * (rest_.nodes[a] + rest_.nodes[b]), length += part;
     }
     if (length > 0) apex_ /= length;
-    for (int sweep = 0; sweep < 20;
-         ++sweep)  // onto all planes; for orthogonal planes one sweep is enough
+    // onto all planes; for orthogonal planes one sweep is enough
+    for (int sweep = 0; sweep < 20; ++sweep)
         for (const auto& [point, normal] : walls.symmetryPlanes())
             apex_ -= (apex_ - point).dot(normal) * normal;
 }

@@ -84,8 +84,8 @@ struct candidateGrid
     }
 };
 
-using rowEntry =
-    std::pair<std::uint16_t, std::int32_t>;  // image, index: sorts own neighbours before images
+// image, index: sorts own neighbours before images
+using rowEntry = std::pair<std::uint16_t, std::int32_t>;
 
 List<rowEntry> findRow(const structureReference& ref, const candidateGrid& grid, label i,
                        scalar radius)

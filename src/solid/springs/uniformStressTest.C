@@ -11,8 +11,8 @@ namespace ispf
 namespace
 {
 
-constexpr scalar penalty =
-    50;  // over G: each outer pass divides the volume error by about this number
+// over G: each outer pass divides the volume error by about this number
+constexpr scalar penalty = 50;
 constexpr int outerPasses = 4;
 constexpr scalar tolerance = 1e-5;
 
@@ -132,8 +132,8 @@ namespace
 // Mean stress of the links between particles with inside[i], per displacement
 tensor linkStress(const structureModel& model, const List<vec4>& u, const List<char>& inside)
 {
-    constexpr scalar small =
-        1e-4;  // scale of the displacement: the stress of the links is not linear in it
+    // scale of the displacement: the stress of the links is not linear in it
+    constexpr scalar small = 1e-4;
     List<vec4> x(u.size());
     for (size_t i = 0; i < x.size(); ++i)
         x[i] = vec4::from(model.reference().x0[i] + small * u[i].xyz());

@@ -73,8 +73,8 @@ solidSides::sides solidSides::of(label i) const
 {
     sides s;
     if (owned_ && beyondWall(i)) return s;
-    const scalar V = cloud_.volume(),
-                 least = 2e-3 * V / cloud_.dx;  // a smaller area counts as no zone
+    // a smaller area counts as no zone
+    const scalar V = cloud_.volume(), least = 2e-3 * V / cloud_.dx;
     List<vector> areas(cloud_.zones.size(), vector::Zero());
     forNeighbours<among::others>(list_, i, [&](pairIndex k, label j) {
         if (const int z = mirroredZone(i, j); z >= 0)
