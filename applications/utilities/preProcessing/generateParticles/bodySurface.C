@@ -116,7 +116,7 @@ private:
         return measure / std::pow(dx_, settings_.nDims);
     }
 
-    // What other units would give
+    // The size in other units, for messages
     word otherUnits(scalar n) const
     {
         word text;

@@ -45,7 +45,7 @@ scalar unitInMetres(const word& unit)
     return at->second;
 }
 
-// What the file's numbers are in
+// The unit of the file's numbers
 word unitOf(const word& path, const cadFormat& format, const word& asked)
 {
     if (!asked.empty()) unitInMetres(asked);
@@ -97,7 +97,7 @@ cadModel readCad(const word& path, const cadSettings& settings)
 {
     const cadFormat format = recognisedFormat(path);
     const word unitName = unitOf(path, format, settings.unit);
-    // gmsh converts to mm what declares its unit
+    // gmsh converts files that declare their unit to mm
     const scalar unit = unitInMetres(format.declaredUnit.empty() ? unitName : "mm");
     cadModel model = format.name == "STL"
                          ? fromSTL(path, unit)
