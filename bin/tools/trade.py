@@ -81,7 +81,7 @@ class Canvas:
         """Left end of the label's middle in data; None if there is no room"""
         x, y = self.pixel(point)
         width = self.LETTER * len(text)
-        for others in (self.taken + self.lines, self.taken):  # if it cannot be helped, on a line
+        for others in (self.taken + self.lines, self.taken):  # if there is no other place, on a line
             for left in (x + 9, x - 9 - width):
                 for middle in (y + 8, y - 8, y):
                     box = (left, middle - self.LINE / 2, left + width, middle + self.LINE / 2)

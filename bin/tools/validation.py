@@ -267,7 +267,7 @@ class sine:
         self.omega = self.amplitude = self.t0 = 0.0
         if kind == "constant":
             self.level = number(file, f"{key}.value", math.nan)
-            if math.isnan(self.level):  # short: p 0
+            if math.isnan(self.level):  # short form: p 0
                 self.level = number(file, key)
             return
         if kind != "sine":
@@ -359,7 +359,7 @@ class Report:
         self._add(quantity, reference, value, unit, math.nan, math.nan, "told", reason)
 
     def _add(self, quantity, reference, value, unit, error, tolerance, status, reason):
-        # no tolerance that it could be outside of; but what came to nothing is no cost of anything
+        # it has no tolerance; but the cost of a run without a result is no number
         if self.without == "shortened" or self.without and not (status == "FAIL" and math.isnan(value)):
             tolerance, status = math.nan, self.without
         self.rows.append([quantity, reference, value, unit, error, tolerance, status, reason])
@@ -371,7 +371,7 @@ class Report:
         with open(os.path.join(self.folder, "summary.csv"), "w", newline="", encoding="utf-8") as file:
             lines = csv.writer(file, lineterminator="\n")
             lines.writerow(COLUMNS)
-            # a value that is not a number stays to be seen
+            # a value that is not a number stays visible
             lines.writerows([[r[0], text(r[1]), f"{r[2]:.6g}"] + [text(v) for v in r[3:]] for r in self.rows])
         print(f"{'quantity':<44} {'reference':>12} {'ours':>12} {'unit':<8} {'error':>10} {'tolerance':>10}  status")
         for quantity, reference, value, unit, error, tolerance, status, _ in self.rows:

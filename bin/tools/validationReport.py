@@ -12,7 +12,7 @@ COLUMNS = ["case", "quantity", "reference", "value", "unit", "error", "tolerance
            "cpuSeconds"]
 
 COLUMNS_SHOWN = 6  # errors in a table of costs
-RUNS_SHOWN = 6  # in a line of what to expect
+RUNS_SHOWN = 6  # in a line of expected errors
 
 
 def cost(case):
@@ -60,7 +60,7 @@ def gather(folder, tutorial, variant, tier):
     for summary in compared(case, variant, "summary.csv"):
         with open(summary, newline="", encoding="utf-8") as file:
             text = file.read()
-            ends = text.endswith("\n")  # in the last column nothing else tells
+            ends = text.endswith("\n")  # in the last column nothing else shows it
             for row in csv.DictReader(io.StringIO(text)):
                 if None in row.values() or not ends:
                     rows.append(([name, "the run", "", "nan", "", "", "", "FAIL", tier] + paid, f"{summary} is cut off"))
@@ -189,7 +189,7 @@ def main(folder, root):
     tutorial = None
     for (this, variant, tier), found in gathered:
         if variant == "study" and not found and not pictures(folder, this, variant):
-            continue  # too few variants to show anything
+            continue  # too few variants
         if this != tutorial:
             tutorial = this
             title = lines(os.path.join(root, "tutorials", tutorial, "README.md"))
