@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the comparisons of hydrostaticBox and hydrostaticVessel have in common"""
+"""Common functions of the comparisons of hydrostaticBox and hydrostaticVessel"""
 import math
 import sys
 from validation import Report, entry, gravity, history, instants, keys, largest, number, table, vector, viscosity

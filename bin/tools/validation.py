@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a tutorial's validation/compare and validation/study need (Python's standard library alone): entries of the
+"""Functions for a tutorial's validation/compare and validation/study (Python's standard library alone): entries of the
 case's dictionaries, the tables of function objects, and a report of quantities beside their references.
 
     from validation import entry, number, table, Report
@@ -35,7 +35,7 @@ def entry(file, key, default=None, form="-value"):
 
 
 def keys(file, key=None):
-    """Of a dictionary, or of the file"""
+    """The keys of a dictionary, or of the file"""
     return entry(file, key, form="-keywords").split()
 
 
@@ -88,7 +88,7 @@ def steady(file, key, default=0.0):
 
 
 def gravity():
-    """Of constant/g, which need not be there"""
+    """The value of constant/g; zero without this file"""
     return vector("constant/g", "value", [0.0, 0.0, 0.0])
 
 
@@ -196,7 +196,7 @@ def written():
 
 
 def field(time, name):
-    """Of the particles at a time that was written with writeFormat ascii, e.g. positions, U, p: numbers, or lists of three"""
+    """A field of the particles at a time that was written with writeFormat ascii, e.g. positions, U, p: numbers, or lists of three"""
     text = ""
     if os.path.exists(os.path.join(time, name)):
         with open(os.path.join(time, name), encoding="utf-8") as file:
@@ -253,7 +253,7 @@ def interpolated(x, xs, ys):
 
 
 def slope(xs, ys):
-    """Of the line of least squares"""
+    """Slope of the line of least squares"""
     n, mx, my = len(xs), sum(xs) / len(xs), sum(ys) / len(ys)
     return sum((x - mx) * (y - my) for x, y in zip(xs, ys)) / sum((x - mx) ** 2 for x in xs)
 
@@ -314,7 +314,7 @@ def values(variants, quantity):
 
 
 def order(points):
-    """Of convergence: slope of the errors over the spacings, both logarithmic"""
+    """Order of convergence: slope of the errors over the spacings, both logarithmic"""
     return slope([math.log(dx) for dx, _ in points], [math.log(error) for _, error in points])
 
 
@@ -355,7 +355,7 @@ class Report:
         self._add(quantity, limit, value, unit, math.nan if value >= limit else value - limit, 0.0, status, reason)
 
     def note(self, quantity, value, reason, unit="", reference=math.nan):
-        """What is told and not judged"""
+        """A quantity that is reported and not judged"""
         self._add(quantity, reference, value, unit, math.nan, math.nan, "told", reason)
 
     def _add(self, quantity, reference, value, unit, error, tolerance, status, reason):

@@ -79,7 +79,7 @@ def compared(case, variant, ending):
 
 
 def families(gathered):
-    """Of each tutorial its variants that were run, (name, rows), and the quantities that show what they err by: those that
+    """Per tutorial its variants that were run, (name, rows), and the quantities that show their errors: those that
     several of them have, of many the ones that come closest to their tolerances"""
     found = {}
     for (tutorial, variant, _), rows in gathered:
@@ -154,7 +154,7 @@ def pictures(folder, tutorial, variant):
 
 
 def tables(folder, tutorial):
-    """Of a study, beside its summary"""
+    """The tables of a study, beside its summary"""
     text = []
     for path in compared(os.path.join(folder, tutorial), "study", ".csv"):
         if os.path.basename(path) == "summary.csv":
