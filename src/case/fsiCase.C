@@ -63,8 +63,8 @@ void fsiCase::read()
         !std::equal(then.zones.begin(), then.zones.end(), cloud.zones.begin(), cloud.zones.end(),
                     same))
         throw fatalError(time.folder() +
-                         " holds another solid, other zones or another spacing "
-                         "than the time before: it is of another case");
+                         " has another solid, other zones or another spacing "
+                         "than the time before: it belongs to another case");
     cloud = std::move(then);
     readBoundary();
 }
@@ -170,14 +170,14 @@ void fsiCase::readStructure()
     if (properties.empty())
     {
         if (cloud.nSolid() > 0)
-            throw fatalError("The particles hold " + std::to_string(cloud.nSolid()) +
-                             " solid ones, but there is no constant/structureProperties that says "
-                             "how they resist");
+            throw fatalError("There are " + std::to_string(cloud.nSolid()) +
+                             " solid particles, but no constant/structureProperties with their "
+                             "elastic model");
         return;
     }
     if (cloud.nSolid() == 0)
         throw fatalError(
-            "constant/structureProperties says how a structure resists, but no "
+            "constant/structureProperties describes an elastic solid, but no "
             "particle is solid. Remove the file, or give a zone phase solid",
             properties.where());
     structureReference ref;
@@ -217,10 +217,9 @@ void fsiCase::countStrays()
     const auto known = cloud.history.find("strays");
     const scalar before = known == cloud.history.end() ? 0 : known->second.at(0);
     if (n > before)
-        warning("Nothing is near " + cloud.describe(last) + ": it takes no part any more, one of " +
-                std::to_string(n) +
-                " such. Is there a gap between the patches of constant/boundary, or a wall that "
-                "they lack?");
+        warning("Fluid has left the case: " + std::to_string(n) +
+                " particle(s) have no neighbours any more, the last is " + cloud.describe(last) +
+                ". Is there a gap between the patches of constant/boundary, or is a wall missing?");
     if (n != before) cloud.history["strays"] = {scalar(n)};
 }
 

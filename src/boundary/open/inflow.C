@@ -75,8 +75,8 @@ bool inflow::readVelocity(const dictionary& dict, const word& caseFolder)
     for (const vector& v : parts)
         if (v.cross(direction_).norm() > 1e-9 * direction_.squaredNorm())
             dict.fail("velocity",
-                      "The velocity's direction changes over time, which that of an open face "
-                      "cannot: what enters is laid out along it");
+                      "The direction of the velocity changes over time. At an open face it must "
+                      "be constant: new particles are placed along it");
     return true;
 }
 

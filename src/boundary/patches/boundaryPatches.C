@@ -93,9 +93,10 @@ void boundary::content::checkLeavingWalls(scalar t, scalar dx) const
             throw fatalError(
                 "Wall " + w.name + " moves across the cyclic patch " + pair.name +
                     ", and at time " + str(t) +
-                    " s its surface reaches one of the planes: what moves over it does not come "
-                    "back at the other. If the surface slides or turns in itself, give the wall a "
-                    "'velocity' or 'rotation' instead of 'motion'; else keep it between the planes",
+                    " s its surface reaches one of the planes: a wall that leaves at one plane "
+                    "does not enter at the other. If the surface slides or turns in itself, give "
+                    "the wall a 'velocity' or 'rotation' instead of 'motion'; else keep it between "
+                    "the planes",
                 one.where);
     }
 }
@@ -212,9 +213,9 @@ void boundary::content::findRims(const dictionary& patches, const siteFile& site
                 at.motion.moves() && meets(given[k], walls, w, dx))
                 patches.subDict(name).fail(
                     "type", "Wall " + at.name + " moves, and ends at the face " + name +
-                                ", where the velocity is given: the one would run into what the "
-                                "other brings. Give the pressure there, or the wall a 'velocity' "
-                                "or 'rotation' in itself if its surface stays where it is");
+                                ", where the velocity is given: the wall would run into fluid "
+                                "that enters. Give the pressure there; or, if the surface of the "
+                                "wall stays in place, give the wall a 'velocity' or 'rotation'");
         for (size_t m = k + 1; m < given.size(); ++m)
             if (clash(given[k], given[m], dx))
                 sharedRims.push_back({index[k], index[m], patches.subDict(name).where("type")});

@@ -58,7 +58,7 @@ public:
         for (const term& term : terms_) sum += term.a * std::pow(t, term.n);
         if (finite(sum)) return sum;
         throw fatalError("The polynomial has no value at " + str(t) +
-                             " s: a negative power wants times other than 0, a fractional one "
+                             " s: a negative power needs times other than 0, a fractional one "
                              "times that are not negative.",
                          where_);
     }

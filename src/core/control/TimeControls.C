@@ -280,8 +280,8 @@ void Time::recall(scalar value, label index, scalar deltaT, const word& source)
     const word name = folderName(value_);
     if (name != timeName(value) && !isNameOf(name, value, deltaT))
     {
-        warning(source + " speaks of time " + str(value, 10) +
-                ", its folder of another: the folder's name is believed.");
+        warning(source + " states time " + str(value, 10) +
+                ", but the name of its folder another time: the name of the folder is used.");
         value = value_;
     }
     startTime_ = value_ = previous_ = value;

@@ -140,7 +140,7 @@ private:
             name_ + " has room for " + str(n, 3) + " particles of spacing dx = " + str(dx_) + " m";
         if (n < fewestParticles)
             throw fatalError(has +
-                             ": it could not hold a particle worth the name. Are dx and the unit "
+                             ": it could not hold a particle. Are dx and the unit "
                              "of the file right?" +
                              otherUnits(n));
         line("surface", "closed, normals outwards, area " + str(s_.area()) + " m2, " +

@@ -72,10 +72,10 @@ word unitOf(const word& path, const cadFormat& format, const word& asked)
     if (!asked.empty()) return asked;
     if (format.name != "BREP")
         throw fatalError(
-            "A file like this does not say what its numbers mean: give 'unit mm;' or "
-            "whatever it is beside the file " +
+            "Files of this format do not state their unit: give 'unit mm;' or "
+            "another unit beside the file " +
             path);
-    warning("A .brep file does not say what its numbers mean: " + path +
+    warning("A .brep file does not state its unit: " + path +
             " is read in mm. If that is so, say 'unit mm;'");
     return "mm";
 }

@@ -329,8 +329,8 @@ void particleDict::addZone(const word& name, List<body>& bodies)
     initial_.emplace_back(dict, dx, nDims, zone.phase == phaseType::solid);
     if (initial_.back().restsElsewhere() && clamped_.count(name))
         dict.fail("rest", "A wall of constant/boundary clamps zone " + name +
-                              ": what it clamps must rest where it is placed. Make the part that "
-                              "is held a zone of phase clamped, with the same formulas");
+                              ": clamped particles must rest where they are placed. Make the "
+                              "clamped part a zone of phase clamped, with the same formulas");
 }
 
 bool particleDict::mustFit(const List<body>& bodies) const
