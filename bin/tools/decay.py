@@ -8,7 +8,7 @@ from validation import Report, entry, history, instants, largest, number, slope,
 
 ASKED = "asked for: decay rate 1 % at Re 100 with 50 particles across, U 2 %, p 5 %"
 INSTANTS = "; at the instants that functions.error writes"
-LEFT = 0.45  # of the speed: as far as the flow is judged; p has then a fifth of its size, and later on noise alone
+LEFT = 0.45  # of the speed: the flow is judged down to this; p then has a fifth of its size, and later only noise
 
 
 def wants(box):
@@ -30,7 +30,7 @@ def wantsFormulas(errors, rate):
     start, U, _, exact = errors[0][:4]
     if not 0 < exact < math.inf or not U <= 1e-6 * exact:
         sys.exit(f"at {start} s U is not the exact solution that {where} has, or that is zero")
-    # the mean is one over particles, whose places scatter: 0.5 % of it, 2 % without shifting
+    # the mean over particles scatters with their places: 0.5 % of it, 2 % without shifting
     off = largest(abs(row[3] / exact / math.exp(-rate * (row[0] - start)) - 1) for row in errors)
     if not off < 0.03:
         sys.exit(f"the exact U of {where} does not decay with {rate:g} 1/s, but is up to {100 * off:.3g} % off it: the "

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the comparisons of hydrostaticBox and hydrostaticVessel have in common"""
+"""Common functions of the comparisons of hydrostaticBox and hydrostaticVessel"""
 import math
 import sys
 from validation import Report, entry, gravity, history, instants, keys, largest, number, table, vector, viscosity
 
 particles, patches = "system/particleDict", "constant/boundary"
-STEPS = 1000  # what is asked for is a fluid still at rest after so many
+STEPS = 1000  # the fluid must be at rest after this number of steps
 
 
 def dot(a, b):
@@ -41,7 +41,7 @@ def compare():
     if not rows[-1][0] > 0:
         sys.exit("functions.extremes of system/controlDict has written no step, and what rests before the first one is no "
                  "result: a larger endTime, or writeControl timeStep of extremes, gives some to judge")
-    profiles = [t for t in instants("postProcessing/depth") if float(t) > 0]  # p is that of the steps
+    profiles = [t for t in instants("postProcessing/depth") if float(t) > 0]  # p is computed by the steps
     if not profiles:
         sys.exit("functions.depth of system/controlDict has written no time after the first step, before which there is no p "
                  "to judge: writeControl onEnd writes it at the end of the run, whatever endTime is")
@@ -50,7 +50,7 @@ def compare():
             sys.exit(f"functions.{name} of system/controlDict: its columns are read as those of fields ({' '.join(wanted)})")
     ends = [dot(rows[-1][k:k + 3], g) / size for k in (10, 14)]
     top, bottom = min(ends) - dx / 2, max(ends) + dx / 2
-    for _, at in faces:  # particles beyond a face do not count
+    for _, at in faces:  # particles beyond an open face do not count
         top, bottom = (max(top, at), bottom) if at < (top + bottom) / 2 else (top, min(bottom, at))
     depth = bottom - top
     fast = math.sqrt(size * depth)
@@ -59,7 +59,7 @@ def compare():
 
     line = table(f"postProcessing/depth/{profiles[-1]}/line.dat")  # distance, position, p
     points = len(line)
-    while line and math.isnan(line[0][4]):  # beyond the fluid; what is not a number between is judged
+    while line and math.isnan(line[0][4]):  # beyond the fluid; nan inside is judged
         line.pop(0)
     while line and math.isnan(line[-1][4]):
         line.pop()

@@ -41,7 +41,7 @@ def latticeLinks(nDims, reach):
 
 
 def ruleLinks(rule, nDims, radius=0.0):
-    """Of a link rule: offsets [dx] and stiffnesses relative to the stiffest"""
+    """Offsets [dx] of the links of a rule, and their stiffnesses relative to the stiffest"""
     links = latticeLinks(nDims, radius if rule == "radius" else math.sqrt(2))
     return [(d, 0.5 if rule == "lattice8" and math.hypot(*d) > 1.2 else 1.0) for d in links]
 

@@ -29,7 +29,7 @@ def chosen():
 
 
 def valueOf(variant, quantity):
-    """Of the variant's summary; nan if it has none"""
+    """The quantity in the variant's summary; nan if it has none"""
     try:
         with open(os.path.join(variant, "comparison", "summary.csv"), newline="", encoding="utf-8") as file:
             return next((float(row["value"]) for row in csv.DictReader(file) if row["quantity"] == quantity), math.nan)
@@ -38,7 +38,7 @@ def valueOf(variant, quantity):
 
 
 def front(points):
-    """Of points (cost, error, ...) those that no other is at most as dear and as wrong as, by rising cost; without
+    """The points (cost, error, ...) to which no other point has at most the same cost and error, by rising cost; without
     those that have nan"""
     best, kept = math.inf, []
     for point in sorted(p for p in points if not any(math.isnan(x) for x in p[:2])):
@@ -81,7 +81,7 @@ class Canvas:
         """Left end of the label's middle in data; None if there is no room"""
         x, y = self.pixel(point)
         width = self.LETTER * len(text)
-        for others in (self.taken + self.lines, self.taken):  # if it cannot be helped, on a line
+        for others in (self.taken + self.lines, self.taken):  # if there is no other place, on a line
             for left in (x + 9, x - 9 - width):
                 for middle in (y + 8, y - 8, y):
                     box = (left, middle - self.LINE / 2, left + width, middle + self.LINE / 2)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a tutorial's validation/compare and validation/study need (Python's standard library alone): entries of the
+"""Functions for a tutorial's validation/compare and validation/study (Python's standard library alone): entries of the
 case's dictionaries, the tables of function objects, and a report of quantities beside their references.
 
     from validation import entry, number, table, Report
@@ -35,7 +35,7 @@ def entry(file, key, default=None, form="-value"):
 
 
 def keys(file, key=None):
-    """Of a dictionary, or of the file"""
+    """The keys of a dictionary, or of the file"""
     return entry(file, key, form="-keywords").split()
 
 
@@ -88,7 +88,7 @@ def steady(file, key, default=0.0):
 
 
 def gravity():
-    """Of constant/g, which need not be there"""
+    """The value of constant/g; zero without this file"""
     return vector("constant/g", "value", [0.0, 0.0, 0.0])
 
 
@@ -196,7 +196,7 @@ def written():
 
 
 def field(time, name):
-    """Of the particles at a time that was written with writeFormat ascii, e.g. positions, U, p: numbers, or lists of three"""
+    """A field of the particles at a time that was written with writeFormat ascii, e.g. positions, U, p: numbers, or lists of three"""
     text = ""
     if os.path.exists(os.path.join(time, name)):
         with open(os.path.join(time, name), encoding="utf-8") as file:
@@ -253,7 +253,7 @@ def interpolated(x, xs, ys):
 
 
 def slope(xs, ys):
-    """Of the line of least squares"""
+    """Slope of the line of least squares"""
     n, mx, my = len(xs), sum(xs) / len(xs), sum(ys) / len(ys)
     return sum((x - mx) * (y - my) for x, y in zip(xs, ys)) / sum((x - mx) ** 2 for x in xs)
 
@@ -267,7 +267,7 @@ class sine:
         self.omega = self.amplitude = self.t0 = 0.0
         if kind == "constant":
             self.level = number(file, f"{key}.value", math.nan)
-            if math.isnan(self.level):  # short: p 0
+            if math.isnan(self.level):  # short form: p 0
                 self.level = number(file, key)
             return
         if kind != "sine":
@@ -314,7 +314,7 @@ def values(variants, quantity):
 
 
 def order(points):
-    """Of convergence: slope of the errors over the spacings, both logarithmic"""
+    """Order of convergence: slope of the errors over the spacings, both logarithmic"""
     return slope([math.log(dx) for dx, _ in points], [math.log(error) for _, error in points])
 
 
@@ -355,11 +355,11 @@ class Report:
         self._add(quantity, limit, value, unit, math.nan if value >= limit else value - limit, 0.0, status, reason)
 
     def note(self, quantity, value, reason, unit="", reference=math.nan):
-        """What is told and not judged"""
+        """A quantity that is reported and not judged"""
         self._add(quantity, reference, value, unit, math.nan, math.nan, "told", reason)
 
     def _add(self, quantity, reference, value, unit, error, tolerance, status, reason):
-        # no tolerance that it could be outside of; but what came to nothing is no cost of anything
+        # it has no tolerance; but the cost of a run without a result is no number
         if self.without == "shortened" or self.without and not (status == "FAIL" and math.isnan(value)):
             tolerance, status = math.nan, self.without
         self.rows.append([quantity, reference, value, unit, error, tolerance, status, reason])
@@ -371,7 +371,7 @@ class Report:
         with open(os.path.join(self.folder, "summary.csv"), "w", newline="", encoding="utf-8") as file:
             lines = csv.writer(file, lineterminator="\n")
             lines.writerow(COLUMNS)
-            # a value that is not a number stays to be seen
+            # a value that is not a number stays visible
             lines.writerows([[r[0], text(r[1]), f"{r[2]:.6g}"] + [text(v) for v in r[3:]] for r in self.rows])
         print(f"{'quantity':<44} {'reference':>12} {'ours':>12} {'unit':<8} {'error':>10} {'tolerance':>10}  status")
         for quantity, reference, value, unit, error, tolerance, status, _ in self.rows:

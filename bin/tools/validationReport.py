@@ -12,7 +12,7 @@ COLUMNS = ["case", "quantity", "reference", "value", "unit", "error", "tolerance
            "cpuSeconds"]
 
 COLUMNS_SHOWN = 6  # errors in a table of costs
-RUNS_SHOWN = 6  # in a line of what to expect
+RUNS_SHOWN = 6  # in a line of expected errors
 
 
 def cost(case):
@@ -60,7 +60,7 @@ def gather(folder, tutorial, variant, tier):
     for summary in compared(case, variant, "summary.csv"):
         with open(summary, newline="", encoding="utf-8") as file:
             text = file.read()
-            ends = text.endswith("\n")  # in the last column nothing else tells
+            ends = text.endswith("\n")  # in the last column nothing else shows it
             for row in csv.DictReader(io.StringIO(text)):
                 if None in row.values() or not ends:
                     rows.append(([name, "the run", "", "nan", "", "", "", "FAIL", tier] + paid, f"{summary} is cut off"))
@@ -79,7 +79,7 @@ def compared(case, variant, ending):
 
 
 def families(gathered):
-    """Of each tutorial its variants that were run, (name, rows), and the quantities that show what they err by: those that
+    """Per tutorial its variants that were run, (name, rows), and the quantities that show their errors: those that
     several of them have, of many the ones that come closest to their tolerances"""
     found = {}
     for (tutorial, variant, _), rows in gathered:
@@ -154,7 +154,7 @@ def pictures(folder, tutorial, variant):
 
 
 def tables(folder, tutorial):
-    """Of a study, beside its summary"""
+    """The tables of a study, beside its summary"""
     text = []
     for path in compared(os.path.join(folder, tutorial), "study", ".csv"):
         if os.path.basename(path) == "summary.csv":
@@ -189,7 +189,7 @@ def main(folder, root):
     tutorial = None
     for (this, variant, tier), found in gathered:
         if variant == "study" and not found and not pictures(folder, this, variant):
-            continue  # too few variants to show anything
+            continue  # too few variants
         if this != tutorial:
             tutorial = this
             title = lines(os.path.join(root, "tutorials", tutorial, "README.md"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What the curves have in common.  Variable: out; optional width, height
+# Common settings of the curves.  Variable: out; optional width, height
 if (!exists("width")) width = 900
 if (!exists("height")) height = 560
 set terminal pngcairo size width, height font "Sans,13" noenhanced

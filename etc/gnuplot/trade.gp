@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Error against CPU time, one curve per family of runs, and their front.  Variables: common, data (of bin/tools/trade.py),
-# out, quantity, xLow, xHigh, yLow, yHigh, crowd (what has no label)
+# out, quantity, xLow, xHigh, yLow, yHigh, crowd (points without labels)
 width = 1100; height = 700
 load common
 stats data using 1:2 nooutput

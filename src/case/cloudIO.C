@@ -64,7 +64,7 @@ void writeZones(const particleCloud& cloud, particleTable& table)
 const char* const balanceOf = "balance.";
 constexpr size_t balanceSize = 4;
 
-// By what readCloud and tableOf take care of themselves
+// True for attributes that readCloud and tableOf handle
 bool isKnown(const word& attribute)
 {
     for (const char* known :
@@ -88,7 +88,7 @@ bool isKnown(const word& attribute)
                                             "choose one of them."));
 }
 
-// Where the last state is no good, the one before is the user's to choose
+// Reads the present state.  If the last state is damaged, the user has to choose an earlier one
 particleTable readStateOf(const Time& time)
 {
     if (!time.hasState(time.folderName(time.value()))) failWithoutState(time);
@@ -112,7 +112,7 @@ particleTable readStateOf(const Time& time)
     }
 }
 
-// <file>.series for ParaView, with all times that have such a file; none where no time has
+// Writes <file>.series for ParaView, with all times that have such a file; removes it if no time has one
 void writeSeriesOf(const Time& time, const word& file, const List<word>& without)
 {
     List<seriesEntry> series;
@@ -183,7 +183,7 @@ void readFields(const particleTable& table, particleCloud& cloud)
         {
             List<vec4>& field = cloud.vectors[name];
             for (const vector& v : values) field.push_back(vec4::from(v));
-            // the fourth component of a registered field travels as a scalar of the same name
+            // the fourth component of a registered field is stored as a scalar of the same name
             const auto w = table.scalars.find(name + ":w");
             if (w == table.scalars.end() || isZero(w->second)) continue;
             for (size_t i = 0; i < field.size(); ++i) field[i][3] = w->second[i];
@@ -267,11 +267,11 @@ void writeCloud(Time& time, const particleCloud& cloud, const boundary& walls)
 
     writeState(table, time.folder(), time.writesAscii() ? stateFormat::ascii : stateFormat::hdf5,
                time.writePrecision() ? time.writePrecision() : 6);
-    time.writeState();  // last: where it is the particles are, unless somebody has taken them away
+    time.writeState();  // last: where this file is, the particles are complete, unless somebody has removed them
 
     const List<word> purge = time.toPurge();
-    for (const word file : {"particles.hdf", "particles.vtp"})  // before their files go
-        writeSeriesOf(time, file, purge);
+    // first in the series, then the files
+    for (const word file : {"particles.hdf", "particles.vtp"}) writeSeriesOf(time, file, purge);
     for (const word& folder : purge) fs::remove_all(time.caseFolder() + "/" + folder);
 }
 

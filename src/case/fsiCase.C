@@ -63,8 +63,8 @@ void fsiCase::read()
         !std::equal(then.zones.begin(), then.zones.end(), cloud.zones.begin(), cloud.zones.end(),
                     same))
         throw fatalError(time.folder() +
-                         " holds another solid, other zones or another spacing "
-                         "than the time before: it is of another case");
+                         " has another solid, other zones or another spacing "
+                         "than the time before: it belongs to another case");
     cloud = std::move(then);
     readBoundary();
 }
@@ -79,7 +79,7 @@ void fsiCase::readProperties()
                          physical.where(hasMu ? "mu" : "rho"));
     mu = hasMu ? physical.getInRange("mu", 0, 1e30, dims::dynamicViscosity)
                : rho * physical.getInRange("nu", 0, 1e30, dims::kinematicViscosity);
-    // one incompressible system for all zones: a second density has no place in it
+    // all zones are one incompressible system with one density
     const dictionary zoneRho = physical.subOrEmptyDict("zoneDensities");
     for (const word& zone : zoneRho.keys())
     {
@@ -120,7 +120,7 @@ List<vector> fsiCase::bodyForceAt(scalar t) const
 
 void fsiCase::readKernel()
 {
-    // 3D projection: what the paper's numbers imply, h = dx; else Wendland C2 at h = 1.3 dx
+    // 3D projection: h = dx, which the numbers of the paper imply; else Wendland C2 at h = 1.3 dx
     const bool paper =
         cloud.nDims == 3 &&
         solution.getOrDefault<word>("coupling", cloud.nSolid() > 0 ? "monolithic" : "projection") ==
@@ -140,7 +140,7 @@ void fsiCase::readKernel()
                          " dx: too few neighbours. It must be 1.8 dx at least, better 2 to 3");
 }
 
-// Particles that the pattern's entries join, without bodies that are clamped somewhere
+// Sets of particles that the pattern's entries join, without sets that have a clamped particle
 static List<List<label>> freeBodies(const blockMatrix3& pattern, const List<char>& fixed)
 {
     const label n = label(pattern.rowStart.size()) - 1;
@@ -170,14 +170,14 @@ void fsiCase::readStructure()
     if (properties.empty())
     {
         if (cloud.nSolid() > 0)
-            throw fatalError("The particles hold " + std::to_string(cloud.nSolid()) +
-                             " solid ones, but there is no constant/structureProperties that says "
-                             "how they resist");
+            throw fatalError("There are " + std::to_string(cloud.nSolid()) +
+                             " solid particles, but no constant/structureProperties with their "
+                             "elastic model");
         return;
     }
     if (cloud.nSolid() == 0)
         throw fatalError(
-            "constant/structureProperties says how a structure resists, but no "
+            "constant/structureProperties describes an elastic solid, but no "
             "particle is solid. Remove the file, or give a zone phase solid",
             properties.where());
     structureReference ref;
@@ -197,8 +197,8 @@ scalar fsiCase::stepEnd(scalar now) const
     return time.endTime() > now ? std::min(end, time.endTime()) : end;
 }
 
-// Neighbours in memory are neighbours in space, near enough for ten steps.  Counted with the state, so that
-// a run continued from it keeps the order
+// Sorts fluid so that neighbours in space are neighbours in memory; this holds for ten steps.  The count is a part of the
+// state, so that a continued run keeps the order
 void fsiCase::sortParticles()
 {
     constexpr scalar interval = 10;
@@ -207,8 +207,8 @@ void fsiCase::sortParticles()
     cloud.clearGhosts();
 }
 
-// Fluid that got out through a gap between patches and has nothing around it takes no part any more: whenever there is
-// more of it, that is said
+// Counts fluid without neighbours: it has left through a gap between patches and takes no part any more.  Warns
+// whenever the number has grown
 void fsiCase::countStrays()
 {
     label n = 0, last = 0;
@@ -217,10 +217,9 @@ void fsiCase::countStrays()
     const auto known = cloud.history.find("strays");
     const scalar before = known == cloud.history.end() ? 0 : known->second.at(0);
     if (n > before)
-        warning("Nothing is near " + cloud.describe(last) + ": it takes no part any more, one of " +
-                std::to_string(n) +
-                " such. Is there a gap between the patches of constant/boundary, or a wall that "
-                "they lack?");
+        warning("Fluid has left the case: " + std::to_string(n) +
+                " particle(s) have no neighbours any more, the last is " + cloud.describe(last) +
+                ". Is there a gap between the patches of constant/boundary, or is a wall missing?");
     if (n != before) cloud.history["strays"] = {scalar(n)};
 }
 
@@ -240,8 +239,8 @@ void fsiCase::updateNeighbours(const stepTimes& times, scalar behind)
     countStrays();
 }
 
-// A body whose centre has passed a cyclic plane goes on at the other, as a whole: only differences of its positions
-// count, also for links to its own images
+// A body whose centre has passed a cyclic plane is moved to the other plane as a whole.  Only differences of its positions
+// matter, also for links to its own images
 void fsiCase::carrySolids()
 {
     for (const List<label>& body : bodies_)

@@ -7,8 +7,8 @@ namespace ispf
 namespace
 {
 
-// Over the fluid zones: a solid carries its own force, and alone it has nothing to float in.  Equal ones
-// give that value itself, without round-off.
+// Mean over the fluid zones: a solid carries its own force, and a solid alone has nothing to float in.  Equal values
+// give that value itself, without rounding.
 vector meanOfFluid(const fsiCase& c, const List<vector>& bodyForce)
 {
     List<vector> a;
@@ -47,7 +47,7 @@ void hydrostaticPart::setStep(scalar t0, scalar t1)
     before_ = part(c_.bodyForceAt(t0)), after_ = part(c_.bodyForceAt(t1));
 }
 
-// Mean of p - rho a.x where p is given, if a body force acts at all
+// Mean of p - rho a.x over particles with given p; 0 without a body force
 scalar hydrostaticPart::givenLevel(const particleCloud& cloud) const
 {
     if (during_.isZero(0)) return 0;

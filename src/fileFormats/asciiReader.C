@@ -19,7 +19,7 @@ namespace ispf
 namespace
 {
 
-// Goes through the tokens of an entry
+// Reads the tokens of an entry one by one
 class entryReader
 {
 public:
@@ -59,7 +59,7 @@ public:
     {
         if (!next().isPlain()) d_.fail(key_, word(form) + " is missing.");
     }
-    // All numbers of a typed list, if that is what comes next
+    // Reads all numbers of a typed list, if that comes next
     bool readNumbers(List<scalar>& values)
     {
         if (!more() || t_[at_].kind != token::numbers) return false;
@@ -69,7 +69,7 @@ public:
         return true;
     }
     bool readNumbers(List<globalId>&) { return false; }
-    // n(...): n must be what is there
+    // Reads n(...); the list must have n elements
     template <class T>
     void readList(List<T>& values)
     {
@@ -175,7 +175,7 @@ private:
             else readForeign(name, table);
     }
 
-    // By its checksum; what particles cannot do without is ours also where somebody has edited it
+    // True if the field has a checksum, or if particles need it: such a field is ours even if a user has edited it
     bool isOurs(const word& name) const
     {
         static const List<word> needed = {positions, "U", "p", "zone", "id", "x0"};
@@ -187,7 +187,7 @@ private:
         warning(folder_ + "/" + name + " " + why + ": later times are without it");
     }
 
-    // What is no good is left out
+    // Reads a field of another program; leaves it out if it is unsound
     void readForeign(const word& name, particleTable& table)
     {
         try
@@ -244,7 +244,7 @@ private:
         else keep(name, table.vectors[name] = values(List<vector>()));
     }
 
-    // Whole numbers or not, and how many; none if it is no type of several numbers
+    // Whether the type has whole numbers, and how many; zero if it is no type of several numbers
     static std::pair<bool, size_t> wideType(const word& type)
     {
         for (const char* component : {"scalar", "label"})
@@ -270,7 +270,7 @@ private:
         split(flat, name, width, columns);
     }
 
-    // Of n((..)(..)...) or n{(..)}, row by row
+    // The values of n((..)(..)...) or n{(..)}, row by row
     template <class T>
     List<T> flatList(const dictionary& d, size_t width)
     {
@@ -305,7 +305,7 @@ private:
         return flat;
     }
 
-    // Particle numbers are beyond 32 bits
+    // The whole numbers of the list: particle numbers exceed 32 bits
     static List<globalId> whole(const dictionary& d, const List<scalar>& values)
     {
         constexpr scalar exact = 9007199254740992;  // 2^53
@@ -355,7 +355,7 @@ List<word> asciiStateFiles(const word& folder)
         const asciiReader reader(folder);
         for (const auto& [name, ignored] : reader.sums()) files.push_back(folder + "/" + name);
     }
-    catch (const fatalError&)  // of no use any more
+    catch (const fatalError&)  // an unreadable state: its fields stay
     {
     }
     return files;

@@ -41,7 +41,7 @@ word quoted(const word& text)
     return plain ? '"' + text + '"' : "#{" + text + "#}";
 }
 
-// [kg m s K mol A cd] of the fields whose meaning is fixed
+// Dimensions [kg m s K mol A cd] of fields with a fixed meaning
 word dimensionsOf(const word& field)
 {
     static const std::map<word, word> known = {{positions, "[0 1 0 0 0 0 0]"},
@@ -106,7 +106,7 @@ public:
         addColumns(table.integers, "Label", "label");
         files_.push_back({folder_ + "/" + paraviewCopy, vtpText(table, precision)});
         files_.push_back(
-            {folder_ + stateFile, stateText(table)});  // last: it makes the folder a state
+            {folder_ + stateFile, stateText(table)});  // last: with this file the folder is a state
         return std::move(files_);
     }
 

@@ -38,7 +38,7 @@ dataFile::dataFile(const word& path, const List<word>& remarks, const List<word>
     header_ += "\n";
 }
 
-// An earlier run from the same start is replaced
+// Replaces the file of an earlier run from the same start
 void dataFile::open()
 {
     writeText(path_, header_);

@@ -26,7 +26,7 @@ size_t sizeOfFile(const word& path)
 
 hdf5Id openFile(const word& path)
 {
-    // HDF5 does not tell what may not be read from what cannot
+    // HDF5 does not distinguish a file without permission from one that is damaged
     if (const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC); file < 0)
         throw fatalError("Cannot read '" + path + "': " + std::strerror(errno) + ".");
     else ::close(file);
@@ -162,7 +162,7 @@ void hdf5Reader::readData(const word& path, kind asked, size_t rowBytes, hid_t t
     const hdf5Id space = checked(H5Dget_space(set), H5Sclose, path);
     hsize_t shape[2] = {0, 0};
     H5Sget_simple_extent_dims(space, shape, nullptr);
-    // A damaged length must not ask for all the memory of the machine
+    // a damaged length must not ask for all the memory of the machine
     if (shape[0] > fileSize_ / rowBytes + 1) fail("'" + path + "' is longer than the file");
     void* data = resize(shape[0]);
     if (shape[0] > 0 && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)

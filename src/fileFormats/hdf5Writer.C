@@ -27,14 +27,14 @@ hdf5Id createInMemory()
     constexpr size_t growBy = size_t(1) << 18;
     const hdf5Id access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "a file");
     if (H5Pset_fapl_core(access, growBy, false) < 0) fail("a file");
-    // The name is never used on disk, but HDF5 refuses to open the same one twice
+    // the name is never used on disk, but HDF5 refuses to open the same name twice
     static int serial = 0;
     const word name = "ispf-in-memory-" + std::to_string(serial++);
     return checked(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "a file");
 }
 
-// A string of fixed length without a closing NUL: ParaView refuses strings of variable length and
-// takes a closing NUL for a part of the text
+// A string of fixed length without a closing NUL: ParaView refuses strings of variable length, and
+// reads a closing NUL as a part of the text
 hdf5Id stringType(const word& text)
 {
     hdf5Id type = checked(H5Tcopy(H5T_C_S1), H5Tclose, "a text");
@@ -60,7 +60,7 @@ void hdf5Writer::writeData(const word& path, hid_t type, const List<hsize_t>& sh
 {
     const hdf5Id linkList = checked(H5Pcreate(H5P_LINK_CREATE), H5Pclose, path);
     H5Pset_create_intermediate_group(linkList, 1);
-    // No time stamps: equal content gives equal bytes
+    // no time stamps: equal contents give equal bytes
     const hdf5Id creation = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
     H5Pset_obj_track_times(creation, false);
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Layout of the file, version 2:
-//   /VTKHDF             UnstructuredGrid 1.0: Points, one vertex cell each, PointData/<column>, of shape (n), (n, 3) or,
-//                       where somebody else has put it in, (n, any): wideColumns.H
-//   /ispf               attribute version; contents: the paths of what follows and of all columns
+//   /VTKHDF             UnstructuredGrid 1.0: Points, one vertex cell each, PointData/<column> of shape (n), (n, 3) or,
+//                       from other programs, (n, any): wideColumns.H
+//   /ispf               attribute version; contents: the paths of the following items and of all columns
 //   /ispf/extra/<name>, /ispf/text/<name>
-// Each array of ours has an attribute checksum.  All numbers are double or 64-bit integers, so what ParaView
-// shows is what a restart reads.  Version 1 had one checksum, /ispf@checksum, for all.
+// Each array that this program writes has an attribute checksum.  All numbers are double or 64-bit integers: ParaView
+// shows what a restart reads.  Version 1 had one checksum, /ispf@checksum, for the whole file.
 #include "particleFile.H"
 
 #include "fileNames.H"
@@ -131,7 +131,7 @@ private:
     void remark(const word& text) { remarks_.push_back(path_ + ": " + text); }
     void remarkLost(const word& what) { remark(what + ": later times are without it"); }
 
-    // What is not kept
+    // Warns of what the reader does not keep
     void remarkOthers()
     {
         const auto others = [&](const word& group, const List<word>& known) {
@@ -171,7 +171,7 @@ private:
         return true;
     }
 
-    // What is no good is left out
+    // Reads a column of another program; leaves it out if it is unsound
     void readForeign(const word& name, particleTable& table)
     {
         const word path = columns + "/" + name;
@@ -211,7 +211,7 @@ private:
         list[name] = std::move(values);
     }
 
-    // An array or text of ours; one of another kind somebody else has put in
+    // True if this program wrote the array or text, or if it has the wanted kind
     bool isOf(const word& path, hdf5Reader::kind wanted)
     {
         if (ours_.count(path) || file_.foundAttribute(path, sum)) return true;
@@ -260,7 +260,7 @@ private:
                 sum + " of that dataset");
     }
 
-    // False, and it is told, if it is of no kind of ours
+    // False, with a remark, if the column is of an unknown kind
     bool readColumn(const word& name, particleTable& table)
     {
         const word path = columns + "/" + name;
@@ -319,7 +319,7 @@ private:
             file_.fail("its checksum does not fit its content: the file was damaged or edited");
     }
 
-    // What was written, of which nothing may be gone
+    // Reads the list of what was written: none of it may be missing
     void readContents()
     {
         if (!file_.found(contents))

@@ -30,7 +30,7 @@ std::map<word, List<T>> unpackColumns(unpacker& in)
     return columns;
 }
 
-// Reading takes 2 ms of work and two copies in memory for 1 MB.  It waits for a slow disk, and, for ever, for
+// Reading takes 2 ms of work and two copies in memory for 1 MB.  It waits for a slow disk.  It would wait for ever for
 // the other end of a pipe that a link in the file names.
 processLimits limitsFor(size_t fileSize)
 {

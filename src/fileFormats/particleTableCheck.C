@@ -20,7 +20,7 @@ word position(const vector& x)
     return text;
 }
 
-// What is wrong with a table, if anything: the same rules hold for writing and reading
+// Finds what is wrong with a table: the same rules hold for writing and reading
 class tableCheck
 {
 public:
@@ -87,7 +87,7 @@ private:
                 fail("array '" + name + "' is not a finite number at index " + std::to_string(i) +
                      ".");
     }
-    // The component of a field that comes behind another one
+    // True for all components of a field but its first
     template <class Columns>
     static bool isFurther(const word& name, const Columns& columns)
     {

@@ -12,7 +12,7 @@ namespace ispf
 namespace
 {
 
-// Cuts triangles one after another; an edge is cut once, so that both its triangles share the node
+// Cuts triangles one after another.  An edge is cut once, so that both of its triangles share the node
 class cutter
 {
 public:
@@ -124,7 +124,7 @@ triSurface withImages(const triSurface& surface, const List<halfSpace>& planes, 
             return nearest <= distance;
         });
         for (vector& p : image.nodes) p = plane.mirror(p);
-        image.flip();  // a reflection turns the winding
+        image.flip();  // a reflection reverses the winding
         all.append(image);
     }
     all.weld(1e-9 * all.bounds().diagonal());

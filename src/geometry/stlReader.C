@@ -17,14 +17,15 @@ namespace
 {
 
 constexpr size_t headerBytes = 80, recordBytes = 50;
-constexpr scalar largest = 1e40;  // single precision ends there; volumes still have a number
+// the range of single precision ends there; volumes are still finite
+constexpr scalar largest = 1e40;
 
 bool isBlank(char c)
 {
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-// Keywords are written in either case
+// True if token is the keyword, in upper or lower case
 bool is(std::string_view token, std::string_view keyword)
 {
     const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; };
@@ -84,7 +85,7 @@ private:
                  " should: a facet has three corners");
     }
 
-    // The rest of the line, or up to a keyword where a file has no lines
+    // The rest of the line; in a file without lines, all up to a keyword
     word name(const List<word>& keywords)
     {
         word found;
@@ -135,7 +136,7 @@ private:
         return value;
     }
 
-    // The normal is not read: it may be wrong, the order of the corners counts
+    // The normal is not read, because it may be wrong: the order of the corners counts
     void readFacet()
     {
         for (auto token = next(); !is(token, "outer"); token = next())
@@ -172,8 +173,8 @@ size_t binaryBytes(std::uint32_t n)
     return headerBytes + 4 + recordBytes * size_t(n);
 }
 
-// The record count of a binary file fixes its length: the only sure mark, for its header may begin
-// with "solid".  One with something after its end, or cut off, has bytes that no text has.
+// A binary file has the length that its record count gives.  This is the only sure mark, because its header may begin
+// with "solid".  A binary file that is too long or cut off has bytes that no text has.
 bool isBinary(const word& bytes)
 {
     if (bytes.size() < binaryBytes(0)) return false;

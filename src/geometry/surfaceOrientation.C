@@ -18,7 +18,7 @@ void turn(triSurface& s, label t)
     std::swap(s.triangles[t][1], s.triangles[t][2]);
 }
 
-// Turns triangles so that they agree with the first one of their component
+// Turns triangles so that they agree with the first triangle of their component
 label makeConsistent(triSurface& s)
 {
     const auto next = edgeNeighbours(s);
@@ -47,7 +47,7 @@ label makeConsistent(triSurface& s)
     return turned;
 }
 
-// Calls f(first, last) for the sides that patch p has in common with itself along each of its edges
+// Calls f(first, last) for the sides of each patch p along each edge of it
 template <class F>
 void forOwnEdges(List<side> sides, const List<label>& patch, F&& f)
 {
@@ -80,7 +80,7 @@ List<char> closedParts(const List<side>& sides, const List<label>& part, label n
     return closed;
 }
 
-// Components that close only together, along edges where more than two triangles meet, become one part
+// Makes one part of components that close only together, along edges where more than two triangles meet
 label joinOpenComponents(const List<side>& sides, List<label>& part, label n)
 {
     const List<char> closed = closedParts(sides, part, n);
@@ -108,7 +108,7 @@ label joinOpenComponents(const List<side>& sides, List<label>& part, label n)
     return count;
 }
 
-// A part's triangles with nodes of their own
+// The triangles of each part, with own nodes
 List<triSurface> separated(const triSurface& s, const List<label>& part, label n)
 {
     List<triSurface> parts(n);
@@ -117,8 +117,8 @@ List<triSurface> separated(const triSurface& s, const List<label>& part, label n
     return parts;
 }
 
-// Is x inside by the number of times that a way out passes the surface?  The majority of three ways: one may
-// meet an edge
+// True if x is inside: a way out passes the surface an odd number of times.  The majority of three ways counts, because
+// one may meet an edge
 bool insideByCrossings(const surfaceSearch& search, const vector& x, scalar far)
 {
     label votes = 0;
@@ -146,7 +146,7 @@ vector offFacet(const triSurface& s, label t)
     return 1e-3 * std::sqrt(s.areaVector(t).norm()) * s.normal(t);
 }
 
-// Edges of four triangles that go on straight in pairs: of bodies that cross there, or of a checkerboard
+// True if an edge of four triangles continues straight in pairs: bodies cross there, or form a checkerboard
 bool crossesAtEdges(const triSurface& s)
 {
     constexpr scalar straight = -0.9;
@@ -168,8 +168,8 @@ bool crossesAtEdges(const triSurface& s)
     return found;
 }
 
-// Where the sides given do not tell, each component is turned so that a way out from its inner side passes the
-// surface an odd number of times
+// For sides that make no sense: turns each component so that a way out from its inner side passes the surface
+// an odd number of times
 label turnByCrossings(triSurface& s)
 {
     const List<label> component = connectedComponents(s);
@@ -213,7 +213,7 @@ label orientOutward(triSurface& s)
     const auto within = [](const boundBox& a, const boundBox& b) {
         return b.distSqr(a.min) == 0 && b.distSqr(a.max) == 0;
     };
-    List<label> depth(n, 0);  // the wall of a cavity lies inside an odd number
+    List<label> depth(n, 0);  // the wall of a cavity lies inside an odd number of parts
     List<boundBox> boxes;
     for (const triSurface& p : parts) boxes.push_back(p.bounds());
     const List<char> closed = closedParts(sides, part, n);
@@ -246,7 +246,7 @@ List<triSurface> separateTouching(const triSurface& s, scalar reach)
                 (boxes[b].min.array() - reach <= boxes[a].max.array()))
             .all();
     };
-    // each into the first group where it meets nothing; a cavity's wall to what holds it
+    // each part goes into the first group where it touches nothing, the wall of a cavity into the group of its body
     List<label> group(n, -1);
     label groups = 0;
     for (label p = 0; p < n; ++p)

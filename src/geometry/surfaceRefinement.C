@@ -15,7 +15,7 @@ class halving
 public:
     halving(triSurface& s, scalar longest) : s_(s), longest_(longest) {}
 
-    // Splits every triangle with long edges once; false if there is none
+    // Splits every triangle with long edges once; false if there was none
     bool pass()
     {
         triangles_.clear(), patch_.clear(), middle_.clear();
@@ -41,7 +41,7 @@ private:
         triangles_.push_back({a, b, c}), patch_.push_back(patch);
     }
 
-    // Turned so that the edges to halve come first: of one a-b, of two a-b and b-c
+    // Turns the triangle so that its long edges come first: a-b if there is one, a-b and b-c if there are two
     void split(label t)
     {
         triSurface::triangle f = s_.triangles[t];
@@ -69,7 +69,7 @@ private:
     scalar longest_;
     List<triSurface::triangle> triangles_;
     List<label> patch_;
-    std::map<std::pair<label, label>, label> middle_;  // of the edges halved in this pass
+    std::map<std::pair<label, label>, label> middle_;  // nodes of the edges halved in this pass
 };
 
 }  // namespace

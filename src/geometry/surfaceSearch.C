@@ -39,14 +39,15 @@ vector nearestOfTriangle(const std::array<vector, 3>& t, const vector& p, int& p
 }
 
 // Fraction of the segment from a along d at which it meets the triangle, else infinity
-// (Moeller & Trumbore 1997, J. Graphics Tools 2); grazing segments in the plane do not meet it
+// (Moeller & Trumbore 1997, J. Graphics Tools 2).  A segment in the plane of the triangle does not meet it
 scalar meets(const std::array<vector, 3>& t, const vector& a, const vector& d)
 {
     constexpr scalar none = std::numeric_limits<scalar>::infinity();
     const vector e1 = t[1] - t[0], e2 = t[2] - t[0], h = d.cross(e2);
     const scalar det = e1.dot(h);
     if (std::abs(det) <= 1e-14 * d.norm() * e1.norm() * e2.norm()) return none;
-    constexpr scalar slack = 1e-9;  // so that a segment through a shared edge never slips through
+    // so that a segment through a shared edge meets one of its triangles
+    constexpr scalar slack = 1e-9;
     const vector s = a - t[0], q = s.cross(e1);
     const scalar u = s.dot(h) / det, v = d.dot(q) / det, f = e2.dot(q) / det;
     if (u < -slack || v < -slack || u + v > 1 + slack || f < 0 || f > 1) return none;
@@ -269,7 +270,7 @@ bool surfaceSearch::within(const vector& p, scalar radius) const
     return false;
 }
 
-// visit(k) gets each triangle near the segment and returns the fraction beyond which nothing counts
+// Calls visit(k) for each triangle near the segment; it returns the fraction beyond which nothing counts any more
 template <class Visit>
 void surfaceSearch::alongSegment(const vector& a, const vector& b, Visit&& visit) const
 {

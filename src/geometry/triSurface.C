@@ -98,7 +98,7 @@ void triSurface::flip()
 namespace
 {
 
-// Nodes by cell of a grid as wide as the tolerance: a partner lies in the same or a neighbour cell
+// Nodes by cells as wide as the tolerance: a partner lies in the same or a neighbouring cell
 class nodeGrid
 {
 public:
@@ -141,7 +141,7 @@ private:
 
 }  // namespace
 
-// The first node with the same coordinates, for each
+// Per node: the first node with the same coordinates
 static List<label> firstEqual(const List<vector>& nodes)
 {
     List<label> order(nodes.size()), first(nodes.size());
@@ -157,10 +157,11 @@ static List<label> firstEqual(const List<vector>& nodes)
     return first;
 }
 
-// The first node within the tolerance, among those that are kept
+// Per node: the first kept node within the tolerance
 static List<label> firstNear(const List<vector>& nodes, const boundBox& box, scalar tolerance)
 {
-    nodeGrid grid(box.min, std::max(tolerance, 1e-12 * box.diagonal()));  // cells can be numbered
+    // wide enough that cells can be numbered
+    nodeGrid grid(box.min, std::max(tolerance, 1e-12 * box.diagonal()));
     List<label> first(nodes.size());
     for (size_t n = 0; n < nodes.size(); ++n)
     {
@@ -230,7 +231,7 @@ scalar triSurface::area() const
 
 scalar triSurface::volume() const
 {
-    // Divergence theorem; a reference point amid the surface keeps rounding small
+    // divergence theorem; a reference point in the middle of the surface keeps rounding errors small
     const vector o = empty() ? vector(vector::Zero()) : bounds().centre();
     scalar sum = 0;
     for (label t = 0; t < size(); ++t) sum += areaVector(t).dot(corner(t, 0) - o) / 3;

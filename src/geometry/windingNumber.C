@@ -11,7 +11,7 @@ namespace
 {
 
 constexpr label leafSize = 8;
-constexpr scalar openingRatio = 2;  // a node is taken as a dipole beyond this many radii
+constexpr scalar openingRatio = 2;  // a node counts as a dipole beyond this many radii
 
 vector middle(const std::array<vector, 3>& t)
 {

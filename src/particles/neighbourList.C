@@ -10,7 +10,7 @@ namespace ispf
 namespace
 {
 
-// All points sorted by row-major search cell, in single precision relative to the lowest corner: the
+// All points sorted by row-major search cell, in single precision relative to the lowest corner.  The
 // candidates of a particle are nine contiguous runs.
 struct searchGrid
 {
@@ -54,7 +54,7 @@ struct searchGrid
     }
 };
 
-// Indices k in [from, to) closer than sqrt(limit) to q, appended to hit
+// Appends to hit the indices k in [from, to) of points closer than sqrt(limit) to q
 ISPF_HOT label closeOnes(const searchGrid& g, const float* q, label from, label to, float limit,
                          label* hit)
 {
@@ -85,7 +85,7 @@ struct rowBuilder
     List<label> hit;
     List<label> found[4];  // cut off, same phase, other phase, walls
     List<scalar> r2[4], F;
-    const List<char>& given;  // is it fluid whose velocity is given?
+    const List<char>& given;  // 1 for fluid with a given velocity
 
     rowBuilder(const particleCloud& c, const smoothingKernel& k, const searchGrid& g,
                const neighbourList::visibility& v, const List<char>& isGiven)

@@ -23,7 +23,7 @@ label particleCloud::zoneIndex(const word& name, const fileLocation& where) cons
         where);
 }
 
-// All owned fields, so that sorting, deleting and adding treat each the same way
+// Visits all owned fields, so that sorting, deleting and adding treat each in the same way
 template <class Visit>
 void particleCloud::forAllFields(Visit&& visit)
 {

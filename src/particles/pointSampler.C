@@ -17,7 +17,7 @@ scalar weightOf(scalar q)
     return a * a * a * a * (4 * q + 1);
 }
 
-// Inverse of the spread of the neighbours, zero in directions that they do not span
+// Inverse of the neighbours' spread, zero in directions that they do not span
 tensor pseudoInverse(const tensor& spread, scalar least)
 {
     const Eigen::SelfAdjointEigenSolver<tensor> eigen(spread);
@@ -65,7 +65,7 @@ std::array<label, 3> pointSampler::cellOf(const vector& point) const
     std::array<label, 3> c;
     for (int d = 0; d < 3; ++d)
     {
-        // the bounds leave room for a cell outside, whose neighbours may still be inside
+        // the bounds allow one cell outside, whose neighbours may still be inside
         const scalar k = std::floor((point[d] - low_[d]) / radius_);
         c[size_t(d)] = label(std::clamp(k, scalar(-2), scalar(n_[size_t(d)]) + 1));
     }

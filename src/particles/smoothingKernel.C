@@ -10,7 +10,7 @@ namespace ispf
 namespace
 {
 
-// Each shape: w(q), f(q) = w'(q)/q, support in h, and the normalisation in 2D and 3D (times h^-nDims)
+// Each shape has: w(q), f(q) = w'(q)/q, support in h, and the normalisation in 2D and 3D (times h^-nDims)
 
 ISPF_INLINE scalar positive(scalar a)
 {
@@ -46,7 +46,7 @@ struct quintic
     static ISPF_INLINE scalar f(scalar q)
     {
         const scalar a = positive(3 - q), b = positive(2 - q), c = positive(1 - q);
-        // below q = 1 the quotient is a polynomial: no cancellation as q -> 0
+        // below q = 1 the quotient is written as a polynomial: no cancellation as q -> 0
         return q < 1 ? -120 + q * q * (120 - 50 * q)
                      : -5 * (power4(a) - 6 * power4(b) + 15 * power4(c)) / q;
     }

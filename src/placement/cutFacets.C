@@ -11,7 +11,7 @@ namespace
 {
 
 constexpr scalar parallel =
-    0.9;  // cosine: faces that touch are meshed differently, and cross a little
+    0.9;  // cosine: touching faces are meshed differently and cross a little
 
 using facet = std::array<vector, 3>;
 
@@ -31,13 +31,13 @@ plane planeOf(const facet& f)
     return {f[0], (f[1] - f[0]).cross(f[2] - f[0]).normalized()};
 }
 
-// Where facet f, as far as it is within the tolerance of plane p, meets it: the ends of a segment in both
-// planes.  A face that only touches p, meshed differently, is now above it and now below
+// The part of facet f within `tolerance` of plane p, as the ends of a segment on the common line of both planes.  A face
+// that only touches p, meshed differently, lies sometimes above and sometimes below it
 bool trace(const facet& f, const plane& p, scalar tolerance, std::array<vector, 2>& ends)
 {
     const plane own = planeOf(f);
     const vector along = own.normal.cross(p.normal).normalized();
-    // from p's side of f to the common line, within f's own plane
+    // from p's side of f to the common line, in the plane of f
     const vector across = along.cross(own.normal);
     const scalar slope = across.dot(p.normal);
     int n = 0;
@@ -65,7 +65,7 @@ scalar lengthInside(std::array<vector, 2> s, const facet& f)
     const vector normal = planeOf(f).normal;
     for (int k = 0; k < 3; ++k)
     {
-        const plane edge = {f[k], (f[(k + 1) % 3] - f[k]).cross(normal)};  // outwards
+        const plane edge = {f[k], (f[(k + 1) % 3] - f[k]).cross(normal)};  // outward
         const scalar a = edge(s[0]), b = edge(s[1]);
         if (a >= 0 && b >= 0) return 0;
         if (a > 0) s[0] += a / (a - b) * (s[1] - s[0]);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Kernel sums as constraints s_i = 1 of positions, within a dead band: each step solves them one by one
-// for the smallest displacement, as position-based dynamics does (Macklin & Mueller 2013, ACM TOG 32),
+// Kernel sums s_i as constraints s_i = 1 on the positions, outside a dead band.  Each step solves the constraints one
+// by one for the smallest displacement, as position-based dynamics does (Macklin & Mueller 2013, ACM TOG 32),
 //
 //     dx_i = sum_j (l_i + l_j) g_ij,   l_i = -(s_i - 1)/(|sum_j g_ij|^2 + sum_j |g_ij|^2)
 //
-// Repulsion alone evens out differences between neighbours, not the sums themselves.
+// Repulsion alone makes differences between neighbours even, but not the sums themselves.
 #include "packing.H"
 
 #include "packingPairs.H"
@@ -56,7 +56,7 @@ public:
     }
 
 private:
-    // g_ij, gradient of a pair's part of the sum
+    // g_ij, gradient of the pair's part of the sum
     vector gradient(label i, label j) const
     {
         const vector apart = pairs_.x(i) - pairs_.x(j);
@@ -108,7 +108,7 @@ private:
     label n_;
     packingPairs pairs_;
     std::unique_ptr<smoothingKernel> kernel_;
-    scalar share_ = 0;  // of a particle in a full sum, per W
+    scalar share_ = 0;  // share of a particle in a full sum, per W
     List<scalar> multiplier_;
     List<char> counted_;
 };

@@ -48,11 +48,11 @@ bool exterior::findWall(const vector& x, exteriorPoint& wall) const
         if (!isWall(label(p))) continue;
         const bool isFree = p == geometry_.patches().size();
         const bool still = isFree || !geometry_.patches()[p].moving;
-        // Beside a rim a wall reaches on under the whole strip
+        // beside a rim a wall extends under the whole strip
         const exteriorPoint q = footOn(label(p), x, wallThickness_ + 2 * stripWidth_);
         if (q.type == exteriorPoint::kind::nothing || q.depth <= 0 || q.depth > wallThickness_)
             continue;
-        // Walls have everything that they reach: filler is not kept
+        // walls get all points within their reach; a free face only gives filler, which is not kept
         const bool better = wall.type == exteriorPoint::kind::nothing ||
                             (!isFree && (q.distance < wall.distance - tie ||
                                          (q.distance < wall.distance + tie && still)));
@@ -105,8 +105,8 @@ exteriorPoint exterior::at(const vector& x) const
     exteriorPoint wall, open;
     const bool behindWall = findWall(x, wall);
     if (!findOpen(x, open)) return wall;
-    // Where wall and open face meet, both are equally far: the wall's plane decides.  A solid's free face
-    // leaves the strip its place.
+    // where wall and open face meet, both are equally far: the wall gets the point.  The free face of a solid leaves
+    // it to the strip
     const bool rigid = behindWall && wall.type == exteriorPoint::kind::rigid;
     return rigid && wall.distance <= open.distance * (1 + 1e-6) ? wall : open;
 }

@@ -12,7 +12,7 @@ namespace ispf
 namespace
 {
 
-// All lattice points of one plane that are something
+// Collects the lattice points of one plane that lie in a zone, or outside in rigid material or a strip
 void sweepPlane(const zoneGeometry& geometry, const exterior& outside, const vector& first,
                 const label (&n)[3], label k, List<latticePoint>& found)
 {
@@ -74,7 +74,7 @@ void dropUnseenRigid(placedParticles& placed, const zoneGeometry& geometry, scal
     List<vector> moving;
     for (size_t i = 0; i < placed.x.size(); ++i)
         if (!geometry.zones()[placed.zone[i]].fixed) moving.push_back(placed.x[i]);
-    for (const halfSpace& plane : geometry.symmetryPlanes())  // images see walls as well
+    for (const halfSpace& plane : geometry.symmetryPlanes())  // images see walls too
         for (size_t i = 0, n = moving.size(); i < n; ++i)
             if (plane.distance(moving[i]) > -support) moving.push_back(plane.mirror(moving[i]));
     const cellList cells(moving, support);

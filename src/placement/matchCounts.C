@@ -14,7 +14,7 @@ namespace
 constexpr scalar nearFace = 0.5;    // in dx
 constexpr scalar alongAxis = 0.99;  // cosine between a face's normal and the lattice
 
-// What lies behind a face, or holds a point, seen from the zone being filled
+// Neighbour behind a face, or owner of a point, seen from the zone that is filled
 constexpr label nothing = -1, rigid = -2, untouchable = -3;
 
 class exchange
@@ -54,7 +54,7 @@ private:
         return p.outside.type == exteriorPoint::kind::rigid ? rigid : untouchable;
     }
 
-    // patch: its number if behind it is rigid material
+    // Neighbour behind the triangle.  patch: set to its number if rigid material lies behind it
     label behind(label triangle, label& patch) const
     {
         const triSurface& s = surface_.surface();
@@ -73,7 +73,7 @@ private:
         return untouchable;
     }
 
-    // Points on this side of curved faces, or on the other
+    // Collects the points of this zone beside curved faces (own), or those of its neighbours
     void find(bool own)
     {
         for (size_t i = 0; i < points_.size(); ++i)
@@ -113,7 +113,7 @@ private:
     List<candidate> found_;
 };
 
-// How many zones lie between each and a wall
+// Per zone: number of zones between it and a wall
 List<label> zonesToWall(const zoneGeometry& geometry)
 {
     const label n = label(geometry.zones().size());
@@ -135,7 +135,7 @@ List<label> zonesToWall(const zoneGeometry& geometry)
 
 void matchCounts(List<latticePoint>& points, const zoneGeometry& geometry)
 {
-    // Enclosed zones first, against those around them; then solids before fluids
+    // enclosed zones first, against those around them; at equal depth solids before fluids
     const List<label> steps = zonesToWall(geometry);
     const auto isFluid = [&](label z) { return geometry.zones()[z].phase == phaseType::fluid; };
     List<label> order(geometry.zones().size());

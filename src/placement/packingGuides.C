@@ -9,8 +9,8 @@ namespace ispf
 namespace
 {
 
-constexpr scalar longestMove = 0.15;  // in dx, at a time
-constexpr scalar longestDrift = 0.5;  // in dx, of particles outside the zones: their edges are free
+constexpr scalar longestMove = 0.15;  // in dx, per move
+constexpr scalar longestDrift = 0.5;  // in dx, of particles outside the zones, whose edges are free
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void packingGuides::hold(packedParticle& p, const vector& by, bool exactly) cons
     if (!p.bound()) holdFree(p, by.norm(), exactly);
     else
     {
-        // The tangent plane serves for a tenth of a spacing
+        // the tangent plane is good enough for a tenth of a spacing
         const bool known = p.normal.squaredNorm() > 0.5;
         const vector off = p.x - p.foot;
         if (exactly || !known || (off - off.dot(p.normal) * p.normal).norm() > 0.1 * dx)
@@ -53,7 +53,7 @@ void packingGuides::hold(packedParticle& p, const vector& by, bool exactly) cons
         else p.x += (p.depth - off.dot(p.normal)) * p.normal;
     }
     if (p.guard >= 0) keepOffWall(p);
-    // An image of its own nearer than 0.8 dx would be as bad as a neighbour
+    // an own image nearer than 0.8 dx would be as bad as a neighbour
     const scalar clear = 0.4 * dx;
     for (const halfSpace& plane : geometry_.symmetryPlanes())
     {
@@ -78,7 +78,7 @@ label packingGuides::wallBeside(const vector& x, label openPatch) const
         if (geometry_.patches()[w].type != patchInfo::kind::wall) continue;
         const exteriorPoint q = outside_.footOn(label(w), x, 5 * geometry_.dx());
         if (q.type == exteriorPoint::kind::nothing || q.depth < -1.5 * geometry_.dx()) continue;
-        // an oblique face leads that far behind the wall's end, and no further
+        // an oblique face extends no farther than this behind the end of the wall
         if (q.depth > outside_.stripWidth() + 0.5 * geometry_.dx())
             throw fatalError(
                 "Open patch " + geometry_.patches()[openPatch].name + " meets the back of wall " +

@@ -17,7 +17,8 @@ bool packingPairs::stillGood(const List<packedParticle>& particles) const
 {
     if (xAtBuild_.size() != particles.size()) return false;
     const scalar far = 0.25 * margin_ * margin_;
-    for (size_t i = 0; i < particles.size(); ++i)  // the rest may only drift, and need not be exact
+    // only zone particles must be exact: the others just drift
+    for (size_t i = 0; i < particles.size(); ++i)
         if (particles[i].where == packedParticle::place::zone &&
             (particles[i].x - xAtBuild_[i]).squaredNorm() > far)
             return false;
@@ -45,7 +46,8 @@ void packingPairs::build(const List<packedParticle>& particles)
             cells.near(x_[i], reach, [&](label j, scalar) { start_[i + 1] += j != i; });
     });
     for (label i = 0; i < n; ++i) start_[i + 1] += start_[i];
-    index_.resize(start_[n] + 1);  // one more: the address of an empty last row
+    // one entry more, so that the address of an empty last row exists
+    index_.resize(start_[n] + 1);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {

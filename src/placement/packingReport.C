@@ -19,7 +19,7 @@ namespace
 
 constexpr scalar tooClose = 0.4;  // [dx]
 
-// All particles, rigid ones and images: what a particle sees
+// Positions of all particles, rigid ones and images included
 List<vector> everything(const zoneGeometry& geometry, const placedParticles& placed, scalar support)
 {
     List<vector> all = placed.x;
@@ -30,7 +30,7 @@ List<vector> everything(const zoneGeometry& geometry, const placedParticles& pla
     return all;
 }
 
-// Solids that touch are one body
+// Counts the layers of solids; solids that touch are one body
 void setLayers(const zoneGeometry& geometry, const placedParticles& placed,
                List<zoneQuality>& quality)
 {
@@ -53,10 +53,10 @@ void setLayers(const zoneGeometry& geometry, const placedParticles& placed,
 
 }  // namespace
 
-// By its own particles.  One beside a face that two zones share lies in one of them only
+// Overlaps by the particles of each zone.  A particle beside a face that two zones share lies in one of them only
 List<zoneOverlap> zoneOverlaps(const zoneGeometry& geometry, const placedParticles& placed)
 {
-    constexpr scalar sag = 0.02;  // of a zone's particles
+    constexpr scalar sag = 0.02;  // share of a zone's particles
     const label n = label(placed.x.size());
     List<List<label>> claims(n);
     parallelFor(n, [&](label begin, label end) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Repulsion by two Wendland kernels: the wide one is that of the flow and makes its sums even, the narrow
-// one keeps next neighbours apart (alone, the wide one would tolerate pairs).
+// Repulsion by two Wendland kernels.  The wide kernel is that of the flow and makes its sums even.  The narrow
+// one keeps next neighbours apart (the wide one alone would allow pairs).
 #include "packing.H"
 
 #include "packingPairs.H"
@@ -17,12 +17,13 @@ namespace
 using place = packedParticle::place;
 
 constexpr scalar narrowSupport = 1.7;  // in dx
-constexpr scalar wideRate = 0.4;       // of the displacement that would cure a long wave at once
+constexpr scalar wideRate = 0.4;       // of the displacement that would remove a long wave at once
 constexpr scalar narrowRate = 0.12;
 constexpr label correctionInterval = 12;  // iterations between additions and removals
 constexpr scalar roomAtBirth = 0.6;       // in dx, to the next particle
 constexpr scalar tolerableSum = 0.035;    // deviation of a kernel sum that calls for a correction
-constexpr scalar pair = 0.45;             // in dx: two so near, held in a corner, never part
+// in dx: two particles nearer than this, held in a corner, never part
+constexpr scalar pair = 0.45;
 
 class relaxation
 {
@@ -55,7 +56,7 @@ public:
     }
 
 private:
-    // One move of all particles along the repulsion
+    // Moves all particles once along the repulsion
     void step(scalar rate)
     {
         pairs_.refresh(particles_);
@@ -112,7 +113,7 @@ private:
     enum class exchange
     {
         none,
-        uneven,  // where sums are far off
+        uneven,  // where sums differ most
         pairs
     };
     void change(label most, scalar room, exchange what);
@@ -132,7 +133,7 @@ private:
     packingPairs pairs_;
 };
 
-// The roomiest place around a particle, in the same zone and bound alike, at least `room` from all others
+// Finds the roomiest place around a particle, bound like it in the same zone, at least `room` from all others
 bool relaxation::birthPlace(const cellList& cells, const packedParticle& parent, scalar room,
                             packedParticle& born) const
 {
@@ -156,7 +157,7 @@ bool relaxation::birthPlace(const cellList& cells, const packedParticle& parent,
     return best > room;
 }
 
-// Of two particles of a zone that are a pair, the one of the higher index
+// Per particle: 1 if it is the second of a pair of one zone
 List<char> relaxation::secondOfPairs(const cellList& cells) const
 {
     List<char> second(particles_.size(), 0);
@@ -170,9 +171,9 @@ List<char> relaxation::secondOfPairs(const cellList& cells) const
     return second;
 }
 
-// Adds where sums are lowest and removes where they are highest, until a zone has its target or `most` of each.
-// Exchanges as many again, but takes no more than others found room for; those held in a layer are as many as it
-// takes, and are not exchanged with others
+// Adds particles where sums are lowest and removes them where they are highest, until each zone has its target or
+// `most` have changed.  Then exchanges particles, but removes no more than have found a new place.  With
+// exchange::uneven, particles held in a layer and free ones are exchanged separately
 void relaxation::change(label most, scalar room, exchange what)
 {
     const List<scalar> sum = kernelSums();
@@ -246,7 +247,7 @@ bool relaxation::isFinal() const
     return n == target_ && std::find(second.begin(), second.end(), 1) == second.end();
 }
 
-// Layers that are evenly full have no gap for one more: it is squeezed in, and the others move up
+// Evenly full layers have no gap for one more particle: it is squeezed in, and the others move up
 void relaxation::matchTargets()
 {
     for (const scalar room : {1.0, 0.75, 0.5, 0.25})

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Space near surfaces is cut into bands one particle thick.  A fine jittered lattice of samples measures
-// each band's volume, which tells how many particles it takes; the samples themselves, moved to the
-// middle of the band, are what the particles are chosen from.  Corners, edges and curvature need no
-// special care: a sample belongs to the surface nearest to it.
+// the volume of each band, and so the number of its particles.  The samples, moved to the middle of the
+// band, are the candidates for the particles.  Corners, edges and curvature need no special treatment: a
+// sample belongs to the surface nearest to it.
 #include "packing.H"
 
 #include <cmath>
@@ -17,14 +17,14 @@ namespace
 
 using place = packedParticle::place;
 
-// 16 for a particle
+// About 16 samples per particle
 scalar samplesPerSpacing(int nDims)
 {
     return nDims == 3 ? 2.5 : 4;
 }
 
 constexpr label bandsOfThick = 2;  // along each surface of a zone that is not thin
-constexpr scalar thinBelow = 5.5;  // in dx: the whole thickness is made of bands
+constexpr scalar thinBelow = 5.5;  // [dx]: a zone thinner than this consists of bands alone
 
 struct sample
 {
@@ -34,7 +34,7 @@ struct sample
     bool thin = false;
 };
 
-// A number in [-0.5, 0.5) that depends on the cell and the axis alone
+// A number in [-0.5, 0.5) that depends only on the cell and the axis
 scalar jitter(std::int64_t i, std::int64_t j, std::int64_t k, int axis)
 {
     std::uint64_t h = std::uint64_t(i) * 0x9E3779B97F4A7C15ull ^
@@ -53,7 +53,7 @@ public:
     {
     }
 
-    // False: x is in no band
+    // Finds the band of x; false if x is in no band
     bool at(const vector& x, sample& s) const
     {
         if (geometry_.beyondSymmetry(x) >= 0) return false;
@@ -74,7 +74,7 @@ private:
         s.width = width;
         s.band = label(q.distance / width);
         if (!thin && s.band >= bandsOfThick) return false;
-        // Layers of solids keep their place, so that a wall has as many as fit; a fluid finds its own
+        // layers of solids keep their depth, so that a wall has as many as fit; fluid particles are free
         const bool solid = geometry_.zones()[zone].phase == phaseType::solid;
         s.p.where = place::zone, s.p.owner = zone;
         s.p.depth = (s.band == 0 || thin) && solid ? (s.band + 0.5) * width : -1;
@@ -93,7 +93,7 @@ private:
         {
             const scalar reach = 2 * guides_.outside().wallThickness();
             const scalar t = guides_.rigidThickness(q.foot, q.normal, reach);
-            // Rather one layer more: fluid on both sides misses what is missing
+            // rounded up to one layer more: a missing layer would be missing to the fluid on both sides
             if (std::isfinite(t)) width = t / std::max<scalar>(1, std::ceil(t / dx_ - 0.3));
         }
         s.width = width;
@@ -154,8 +154,8 @@ public:
         return total;
     }
 
-    // Where the particles beyond a surface (behind walls, in strips) come to an end, within a kernel's reach along
-    // it, nothing would hold them against those that push from within: a wall would lose 3 % of them
+    // True if the particles beyond a surface (behind walls, in strips) end within a kernel's reach along it.  There nothing
+    // holds them against the push from within: a wall would lose 3 % of its particles
     bool endsBeside(const packedParticle& p) const
     {
         const bool flat = geometry_.nDims() == 2;
@@ -206,7 +206,7 @@ private:
 
     void samplesOf(std::int64_t i, std::int64_t j, std::int64_t k, bandSamples& out) const
     {
-        // Fine cells are numbered through the whole space, so that the jitter is the same everywhere
+        // fine cells are numbered through the whole space, so that the jitter is the same everywhere
         const scalar perSpacing = samplesPerSpacing(geometry_.nDims()), a = dx_ / perSpacing;
         std::int64_t first[3], last[3];
         const std::int64_t cell[3] = {i, j, k};
@@ -237,8 +237,8 @@ private:
     List<const surfaceSearch*> surfaces_;
 };
 
-// Points of a lattice that is turned against all axes: along a cylinder or a plate, each plane of an
-// upright one would hold the same wrong number of points
+// Points of a lattice that is turned against all axes.  In an upright lattice each plane along a cylinder or a
+// plate would have the same wrong number of points
 class turnedLattice
 {
 public:
@@ -250,7 +250,7 @@ public:
         half_ = label(std::ceil(0.5 * geometry_.bounds().diagonal() / geometry_.dx())) + 1;
     }
 
-    // Deeper in a zone than its bands, and a reserve half a band less deep
+    // Points deeper in a zone than its bands, and a reserve up to half a band less deep
     List<depthAndParticle> points(const sampler& bands) const
     {
         const bool flat = geometry_.nDims() == 2;
@@ -308,7 +308,7 @@ List<packedParticle> seedPacking(const packingGuides& guides, List<label>& targe
     const sweeper sweep(guides, bands);
     for (const auto& [key, samples] : sweep.all())
     {
-        // A band of another width holds its share of the volume closer together, or further apart
+        // a band of other width has its share of the volume with other distances along it
         List<vector> x, normals;
         List<scalar> spacing;
         for (const sample& s : samples)

@@ -15,7 +15,7 @@ namespace
 
 constexpr scalar triangular = 1.075;  // next neighbours of a triangular pattern, in spacings
 
-// Samples with their images, which come and go with them
+// Samples with their images, which are dropped together
 class crowd
 {
 public:
@@ -39,7 +39,7 @@ public:
 
     label size() const { return label(copies_.size()); }
 
-    // By its own images, which cannot be dropped without it
+    // Crowding by the sample's own images, which cannot be dropped without it
     scalar selfCrowding(label i) const
     {
         scalar sum = 0;
@@ -51,7 +51,7 @@ public:
         return sum;
     }
 
-    // visit(j, weight) for all samples that crowd sample i, or are crowded by it
+    // Calls visit(j, weight) for all samples that crowd sample i or are crowded by it
     template <class Visit>
     void around(label i, Visit&& visit) const
     {
@@ -68,7 +68,7 @@ private:
     {
         return values.empty() ? 1 : *std::max_element(values.begin(), values.end());
     }
-    // Falls to zero at the distance of a perfect triangular pattern
+    // Weight that falls to zero at the distance of a perfect triangular pattern
     static scalar weight(scalar distSqr, scalar reach)
     {
         const scalar q = 1 - std::sqrt(distSqr) / reach, q2 = q * q, q4 = q2 * q2;
@@ -83,15 +83,15 @@ private:
     std::unique_ptr<cellList> cells_;
 };
 
-// Cubes of a few spacings and how many samples each may still lose, those of the two sides of a wall apart.
-// Crowding is a local matter: rims and chance would otherwise make one region denser than another by some percent.
+// The number of samples that each cube of a few spacings may still lose, separately for the two sides of a wall.
+// Crowding is local: without quotas, rims and chance would make one region denser than another by some percent.
 class quotas
 {
 public:
     quotas(const List<vector>& samples, const List<vector>& normals, const List<scalar>& spacing,
            label keep)
     {
-        // sides first: what rounding leaves stays on a side
+        // the side is the first part of the key, so that a rounding rest stays on its side
         std::map<std::array<std::int64_t, 6>, List<label>> cubes;
         for (size_t i = 0; i < samples.size(); ++i)
         {
@@ -152,7 +152,7 @@ List<label> spreadEvenly(const List<vector>& samples, const List<vector>& normal
         const candidate c = crowded.top();
         crowded.pop();
         if (gone[c.index]) continue;
-        if (c.weight > weight[c.index])  // has become less crowded since it was queued
+        if (c.weight > weight[c.index])  // it has become less crowded since it was queued
         {
             crowded.push({weight[c.index], c.index});
             continue;

@@ -11,12 +11,13 @@ namespace ispf
 namespace
 {
 
-constexpr scalar reach = 2.1;       // in dx, of the neighbours that tell the normal
-constexpr scalar tubeRadius = 1;    // in dx: no layer has a hole as wide
-constexpr scalar gap = 1.6;         // in dx, along the normal: two layers are about 1 apart
-constexpr scalar sheetBelow = 0.1;  // variance along the normal, in dx^2; of two layers about 0.3
+constexpr scalar reach = 2.1;     // in dx, of the neighbours that give the normal
+constexpr scalar tubeRadius = 1;  // in dx: no layer has a hole of this width
+constexpr scalar gap = 1.6;       // in dx, along the normal: two layers are about 1 apart
+// variance along the normal, in dx^2; for two layers it is about 0.3
+constexpr scalar sheetBelow = 0.1;
 
-// The normal of one particle is uncertain by some 10 degrees, the mean of its neighbours' is not
+// Mean normal of the neighbours of i: the normal of one particle is uncertain by some 10 degrees
 vector smoothed(const particleSurface& surface, const cellList& cells, const vector& x, label i,
                 label n, scalar dx)
 {
@@ -67,7 +68,8 @@ particleSurface::particleSurface(const List<vector>& points, label n, scalar dx,
         {
             scalar total = 0;
             vector first = vector::Zero();
-            tensor second = vector(0, 0, nDims == 2 ? 1e3 : 0).asDiagonal();  // no thickness there
+            // in 2D z is never the thin direction
+            tensor second = vector(0, 0, nDims == 2 ? 1e3 : 0).asDiagonal();
             cells.near(points[i], reach * dx, [&](label j, scalar d2) {
                 if (j == i) return;
                 const scalar q = 1 - std::sqrt(d2) / (reach * dx), w = q * q;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A solid that no fluid reaches is a mistake of its place or its unit
+// Checks contacts: a solid that no fluid reaches has a wrong place or a wrong unit
 #include "zoneGeometry.H"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct approach
     vector from = vector::Zero(), to = vector::Zero();
 };
 
-// Where the surface comes nearest to the other, by the middles of its facets
+// Nearest approach of s to the other surface, by the centres of its facets
 approach nearestApproach(const triSurface& s, const surfaceSearch& other, int nDims)
 {
     approach best;

@@ -13,10 +13,10 @@ namespace ispf
 namespace
 {
 
-// How far from a triangle its two sides are looked at, in dx: beyond the sag of coarse facets, well
+// Distance from a triangle at which its two sides are probed [dx]: beyond the sag of coarse facets, well
 // within the thinnest zone that holds a particle
 constexpr scalar probe = 0.05;
-constexpr scalar mostParticles = 5e8;  // as labels, of images too, can number
+constexpr scalar mostParticles = 5e8;  // labels, those of images included, can number so many
 
 bool isPrismEnd(const triSurface& s, label t)
 {
@@ -25,7 +25,7 @@ bool isPrismEnd(const triSurface& s, label t)
 
 }  // namespace
 
-// What planes along the axes leave of a box
+// The part of a box that planes along the axes leave
 static boundBox withinPlanes(boundBox box, const List<halfSpace>& planes)
 {
     for (const halfSpace& plane : planes)
@@ -58,14 +58,14 @@ zoneGeometry::zoneGeometry(List<zoneInfo> zones, List<patchInfo> patches, List<b
     classify();
     for (size_t z = 0; z < zones_.size(); ++z)
     {
-        // planes on all sides leave a zone without a face
+        // a zone with planes on all sides has no face
         if (boundary_[z].empty() && !withinPlanesAlone(label(z)))
             throw fatalError("Zone " + zones_[z].name +
                              " is empty: no body belongs to it, or later bodies cover it, or the "
                              "symmetry planes cut it away");
         bounds_.add(boundary_[z].bounds());
     }
-    // where planes on three sides leave hardly a face
+    // zones that planes on three sides bound have hardly a face
     for (const boundBox& body : bodyBounds_)
         if (const boundBox box = withinPlanes(body, planes_);
             (box.min.array() <= box.max.array()).all())
@@ -130,7 +130,7 @@ label zoneGeometry::zoneAt(const vector& x) const
 {
     label zone = -1;
     if (beyondSymmetry(x) >= 0 || inBodies(x, zone)) return zone;
-    // Faces that touch are meshed differently: x may lie in the sliver between them
+    // touching faces are meshed differently: x may lie in the sliver between them
     scalar least = probe * dx_;
     for (size_t z = 0; z < contact_.size(); ++z)
         if (const surfacePoint q = contact_[z].nearest(x, least); q.found && q.distance < least)
@@ -156,7 +156,7 @@ void zoneGeometry::addBoundary(label zone, const triSurface& from, label t, labe
 void zoneGeometry::classify()
 {
     const scalar tiny = 1e-6 * dx_;
-    List<triSurface> skin;  // of each body, inside the symmetry planes, without prism ends
+    List<triSurface> skin;  // of each body: inside the symmetry planes, without prism ends
     List<surfaceSearch> own(zones_.size()), whole;
     for (const body& b : bodies_) whole.emplace_back(b.surface);
     List<triSurface> zoneSkin(zones_.size());
@@ -185,7 +185,7 @@ void zoneGeometry::classify()
             inBodies(c - step, inner), inBodies(c + step, outer);
             if (inner == outer || inner != bodies_[k].zone) continue;
             if (inner >= 0) addBoundary(inner, s, t, outer, false);
-            // A shape set into another bounds it too, unless the other has a face of its own there
+            // a shape inside another bounds it too, unless the other has its own face there
             if (outer >= 0 && !own[outer].within(c, 2 * probe * dx_))
                 addBoundary(outer, s, t, inner, true);
         }
@@ -199,7 +199,7 @@ void zoneGeometry::classify()
         }));
 }
 
-// A face whose patch does not exist would be a hole
+// fatalError for a face whose patch does not exist: it would be a hole
 void zoneGeometry::checkPatchNames() const
 {
     List<word> valid;
@@ -249,7 +249,7 @@ void zoneGeometry::gatherPatches()
     freeSurface_.weld(1e-6 * dx_);
 }
 
-// Is the zone all that the planes leave of one of its bodies?
+// True if symmetry planes alone bound the zone within one of its bodies
 bool zoneGeometry::withinPlanesAlone(label zone) const
 {
     for (size_t k = 0; k < bodies_.size(); ++k)
@@ -271,8 +271,8 @@ void zoneGeometry::checkPlanes() const
                                  "): leave one away, it holds for all faces in it");
 }
 
-// Area of a zone's openings in a plane, 2D: a prism without ends is open there between its open edges and the
-// corners that the plane has with others within the zone
+// Area of a zone's openings in a plane, in two dimensions.  A prism without ends is open there between its open edges and
+// the corners of the plane with other planes within the zone
 scalar zoneGeometry::openingIn(const halfSpace& plane, label zone, scalar height) const
 {
     const triSurface& s = boundary_[zone];
@@ -304,7 +304,7 @@ void zoneGeometry::setVolumes()
         const triSurface& s = boundary_[z];
         if (nDims_ == 2)
         {
-            // Divergence theorem in the plane, over a prism of known height that is open at the planes
+            // divergence theorem in the plane, over a prism of known height that is open at the planes
             const boundBox box = s.empty() ? bounds_ : s.bounds();
             scalar sum = 0;
             for (label t = 0; t < s.size(); ++t)
@@ -330,7 +330,7 @@ void zoneGeometry::setVolumes()
             closed.append(lids(closed, plane, 1e-5 * dx_));
             closed.weld(1e-6 * dx_);
         }
-        // Facets lie inside a convex surface: scaled to the volume the CAD kernel knows
+        // facets lie inside a convex surface: scaled to the volume known from CAD
         const scalar bounded = closed.volume();
         whole = s.empty() || std::abs(bounded - cut) < 1e-3 * cut;
         volume_.push_back(whole ? cut * true_ / meshed : bounded);

@@ -27,7 +27,7 @@ boundaryLoop measured(List<label> nodes, const triSurface& s)
         box.add(at(k));
     }
     loop.centre /= loop.length;
-    // what is missing runs along the rim the other way
+    // the missing facets run along the rim in the opposite direction
     for (size_t k = 0; k < n; ++k)
         loop.area -= 0.5 * (at(k) - loop.centre).cross(at(k + 1) - loop.centre);
     loop.size = (box.max - box.min).maxCoeff();
@@ -66,7 +66,7 @@ List<boundaryLoop> boundaryLoops(const triSurface& s)
     std::multimap<label, label> next;
     for (const auto& [a, b] : openHalfEdges(s)) next.emplace(a, b);
     List<boundaryLoop> loops;
-    std::map<label, size_t> onPath;  // where a node stands in it
+    std::map<label, size_t> onPath;  // place of a node in the path
     List<label> path;
     while (!next.empty())
     {
@@ -80,14 +80,14 @@ List<boundaryLoop> boundaryLoops(const triSurface& s)
             onPath[to] = path.size(), path.push_back(to);
             continue;
         }
-        // rims that touch in a node come apart here
+        // rims that touch in a node are separated here
         const size_t from = met->second;
         loops.push_back(measured({path.begin() + from, path.end()}, s));
         for (size_t k = from + 1; k < path.size(); ++k) onPath.erase(path[k]);
         path.resize(from + 1);
         if (from == 0) path.clear(), onPath.clear();
     }
-    // the largest first, those of one size by place; last digits do not count
+    // the largest first, equal sizes sorted by place; the last digits do not count
     scalar largest = 0;
     for (const boundaryLoop& loop : loops) largest = std::max(largest, loop.size);
     const auto rank = [&](const boundaryLoop& loop) {

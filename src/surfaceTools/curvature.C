@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Radii of curvature of triangulated surfaces: the curvature tensor of Cohen-Steiner and Morvan 2003,
 //     T = 1/A sum_e beta_e |e| e e^T   over the edges e at a node, beta_e the angle between their facets,
-// of which A and |e| have the share within the barycentric cells of the node.
+// where A and |e| count with their share within the barycentric cells of the node.
 #include "featureSize.H"
 
 #include <Eigen/Eigenvalues>
@@ -79,17 +79,17 @@ private:
         const auto [a, b] = e;
         const vector n0 = s_.normal(facets[0]), n1 = s_.normal(facets.back()),
                      along = s_.nodes[b] - s_.nodes[a];
-        const bool open = facets.size() == 1;  // of the sides of a prism
+        const bool open = facets.size() == 1;  // an edge of the sides of a prism
         if (facets.size() > 2 || n0.dot(n1) < sharp) left_[a] = left_[b] = 1;
         if (open || facets.size() > 2) return;
-        // convex if the other facet's far corner lies below this one
+        // convex if the centre of the other facet lies below this facet
         const scalar below = (s_.centre(facets[1]) - s_.nodes[a]).dot(n0) < 0 ? 1 : -1;
         const scalar angle = below * std::atan2(n0.cross(n1).norm(), n0.dot(n1));
         const tensor share = 0.5 * angle * along * along.transpose() / along.norm();
         tensors_[a] += share, tensors_[b] += share;
     }
 
-    // Over a node and those around it: of irregular facets a node alone says little
+    // Averages over each node and its neighbours: in irregular facets a single node says little
     void smooth()
     {
         const List<tensor> tensors = tensors_;

@@ -30,15 +30,15 @@ bool turnedAsSorted(const triple& f)
     return (f[0] < f[1]) + (f[1] < f[2]) + (f[2] < f[0]) == 2;
 }
 
-// Facets on one another, whichever way they are turned
+// Two facets with the same nodes, in any orientation
 struct facetPair
 {
     label first, second;
-    size_t part;  // pairs that hang together: the index of one of them
+    size_t part;  // connected pairs have one part: the index of one of them
 };
 
-// Where the sides given tell, facets turned the same way are one, else of more than two on one another two
-// are kept
+// If the given sides make sense, facets of equal orientation are reduced to one; of the rest at most two facets are
+// kept
 List<facetPair> findPairs(const triSurface& s, bool sidesTell, List<char>& keep)
 {
     List<triple> key;
@@ -68,14 +68,14 @@ size_t partOf(List<facetPair>& pairs, size_t k)
     return k;
 }
 
-// What stands at an edge of a pair
+// Numbers of pairs and single facets at an edge of a pair
 struct edgeCount
 {
     label pairs = 0, singles = 0;
     size_t aPair = 0;
 };
 
-// Returns one facet of each pair that goes
+// Decides which pairs are removed; returns one facet of each
 List<label> judge(const triSurface& s, List<facetPair>& pairs, List<char>& keep)
 {
     List<label> gone;

@@ -18,13 +18,13 @@ bool hasNode(const triSurface& s, label t, label n)
     return f[0] == n || f[1] == n || f[2] == n;
 }
 
-// Of facets on both sides of an edge one tests it
+// True for one of the two facets at an edge: this one tests the edge
 bool ownsEdge(const triSurface& s, label t, int k)
 {
     return s.triangles[t][k] < s.triangles[t][(k + 1) % 3];
 }
 
-// Of a point in the facet's plane, positive inside
+// Distance of a point in the facet's plane from its border, positive inside
 scalar fromBorder(const triSurface& s, label t, const vector& x)
 {
     scalar least = std::numeric_limits<scalar>::max();

@@ -15,14 +15,14 @@ namespace
 constexpr scalar mostPoints = 2e5;
 constexpr scalar lookingBack = -0.7;  // cosine between the normals
 
-// From a face along `way`; infinite without an opposite
+// The face opposite to x along `way`; infinite if there is none
 featureSize opposite(const surfaceSearch& search, const vector& x, const vector& way, scalar reach,
                      scalar off)
 {
     featureSize found;
     const vector n = way.normalized();
     const surfaceHit hit = search.firstHit(x + off * n, x + reach * n);
-    // the normal there looks back at x, seen from the same side of the surface
+    // the normal there must look back at x, seen from the same side of the surface
     if (!hit.found) return found;
     const scalar cosine = search.surface().normal(hit.triangle).dot(n);
     if (std::abs(cosine) < -lookingBack) return found;

@@ -23,7 +23,7 @@ bool holds(const point2& a, const point2& b, const point2& c, const point2& p)
     return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
 }
 
-// Is no other corner of the polygon in the triangle at its corner k?
+// True if no other corner of the polygon is in the triangle at its corner k
 bool isEar(const List<point2>& p, const List<label>& ring, size_t k, scalar flat)
 {
     const size_t n = ring.size();
@@ -36,7 +36,7 @@ bool isEar(const List<point2>& p, const List<label>& ring, size_t k, scalar flat
     return true;
 }
 
-// Do the segments ab and cd touch, otherwise than in an end that they share?
+// True if the segments ab and cd touch, except in an end that both share
 bool touch(const point2& a, const point2& b, const point2& c, const point2& d)
 {
     if (a == c || a == d || b == c || b == d) return false;
@@ -46,8 +46,8 @@ bool touch(const point2& a, const point2& b, const point2& c, const point2& d)
     return between(turn(a, b, c), turn(a, b, d)) && between(turn(c, d, a), turn(c, d, b));
 }
 
-// The holes joined to the outer ring by cuts, each along the shortest line that meets no edge (Held 2001):
-// one ring, in which the ends of a cut stand twice
+// Joins the holes to the outer ring by cuts, each along the shortest line that meets no edge (Held 2001).  The result
+// is one ring, which contains the ends of each cut twice
 List<label> cutOpen(const List<point2>& p, const List<List<label>>& rings)
 {
     List<label> ring = rings[0];
@@ -110,7 +110,7 @@ List<std::array<label, 3>> fillPolygon(const List<vector>& points, const vector&
     for (bool strict = true; ring.size() > 2;)
     {
         const size_t n = ring.size();
-        // corners in line with their neighbours are left for last, where nothing else remains
+        // corners in line with their neighbours come last, when no other corner remains
         if (!isEar(p, ring, k % n, strict ? flat : -flat))
         {
             ++k;
@@ -121,7 +121,7 @@ List<std::array<label, 3>> fillPolygon(const List<vector>& points, const vector&
         }
         triangles.push_back({ring[(k + n - 1) % n], ring[k % n], ring[(k + 1) % n]});
         ring.erase(ring.begin() + long(k % n));
-        k = k % n + 1;  // not the next one: better shapes
+        k = k % n + 1;  // leaves out the next corner: better shapes
         failed = 0, strict = true;
     }
     return triangles;

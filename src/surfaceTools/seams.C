@@ -18,7 +18,7 @@ struct rimEdge
     bool sameAs(const rimEdge& o) const { return low == o.low && high == o.high; }
 };
 
-// Edges that one facet alone has, whichever way it is turned
+// Edges that belong to one facet only, in any orientation
 List<rimEdge> findRim(const triSurface& s)
 {
     List<rimEdge> all, rim;
@@ -40,7 +40,7 @@ List<rimEdge> findRim(const triSurface& s)
     return rim;
 }
 
-// Rim nodes by x, so that those beside an edge are found among few
+// Rim nodes sorted by x, so that the search beside an edge is short
 class rimNodes
 {
 public:
@@ -53,7 +53,7 @@ public:
                          [&](label a, label b) { return s.nodes[a][0] < s.nodes[b][0]; });
     }
 
-    // Nodes strictly between a and b, along the way
+    // Nodes strictly between a and b, in the order along the edge
     List<label> on(label a, label b, label apex, scalar tolerance) const
     {
         const vector &p = s_.nodes[a], &q = s_.nodes[b];
@@ -81,7 +81,7 @@ private:
     List<label> nodes_;
 };
 
-// True if a node of the rim was on the edge
+// Cuts the facet at nodes of the rim on its edge; true if there was one
 bool cutFacet(triSurface& s, const rimEdge& edge, const rimNodes& rim, scalar tolerance)
 {
     const triSurface::triangle f = s.triangles[edge.facet];

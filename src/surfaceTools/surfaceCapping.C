@@ -15,7 +15,7 @@ bool isInside(const vector& x, const boundaryLoop& loop, const triSurface& s)
     List<vector> points = {x};
     for (const label n : loop.nodes) points.push_back(s.nodes[n]);
     const List<std::array<scalar, 2>> p = flattened(points, loop.normal());
-    bool inside = false;  // a ray along the first axis
+    bool inside = false;  // counts crossings of a ray along the first axis
     for (size_t i = 1, j = p.size() - 1; i < p.size(); j = i++)
         if ((p[i][1] > 0) != (p[j][1] > 0) &&
             p[i][0] < (p[j][0] - p[i][0]) * p[i][1] / (p[i][1] - p[j][1]))
@@ -37,8 +37,8 @@ word listed(const List<boundaryLoop>& loops, scalar dx)
     return text;
 }
 
-// How many other rims in its plane surround each: a rim within one is the inner edge of a ring, one within
-// two the outer edge of another end
+// Number of other rims in its plane around each rim.  A rim within one is the inner edge of a ring; a rim within
+// two is the outer edge of another end
 List<int> depths(const triSurface& s, const List<boundaryLoop>& loops, scalar dx)
 {
     List<int> depth(loops.size(), 0);
@@ -48,7 +48,7 @@ List<int> depths(const triSurface& s, const List<boundaryLoop>& loops, scalar dx
     return depth;
 }
 
-// The name of each end
+// Name of each end
 List<word> namesFor(const List<boundaryLoop>& loops, const List<capRequest>& requests, scalar dx)
 {
     List<word> names(loops.size());
@@ -84,8 +84,8 @@ void checkPlane(const boundaryLoop& loop, const word& name, scalar tolerance, sc
                          " m. Cut the vessel there by a plane, or raise 'tolerance' in 'capping'");
 }
 
-// The rim's nodes as the lid runs, counter-clockwise about n, or clockwise if it is a hole in the lid; from the
-// first in space on, and moved into the plane
+// The rim's nodes in the direction of the lid: counter-clockwise about n, or clockwise if the rim is a hole in the lid.
+// Starts from the first node in space and moves the nodes into the plane
 List<label> ringOf(triSurface& s, const boundaryLoop& loop, const boundaryLoop& plane, bool isHole)
 {
     const vector n = plane.normal();

@@ -15,7 +15,7 @@ namespace ispf
 namespace
 {
 
-// Nodes that differ, but not by the tolerance
+// Joins nodes that differ by less than the tolerance; returns their number
 label joinNear(triSurface& s, scalar tolerance)
 {
     s.weld(0);
@@ -39,7 +39,7 @@ label dropFlat(triSurface& s)
     return before - s.size();
 }
 
-// A fan about the rim's centre: smaller than what is resolved, its shape does not matter
+// Closes a hole by a fan about the centre of its rim: it is smaller than the resolution, so its shape does not matter
 void closeHole(triSurface& s, const boundaryLoop& loop)
 {
     const size_t n = loop.nodes.size();
@@ -66,7 +66,7 @@ bool sameSense(const triSurface::triangle& a, const triSurface::triangle& b)
            (a[0] == b[2] && a[1] == b[0] && a[2] == b[1]);
 }
 
-// Returns the facets before they were turned
+// Repairs the surface; returns the facets before they were turned
 List<triSurface::triangle> mend(triSurface& s, bool tells, scalar weld, repairReport& report)
 {
     const triSurface given = s;
@@ -76,7 +76,7 @@ List<triSurface::triangle> mend(triSurface& s, bool tells, scalar weld, repairRe
     const List<triSurface::triangle> before = s.triangles;
     orientOutward(s);
     if (tells) return before;
-    // without sides that tell, a wall between bodies that touch has them on both its sides; else they may overlap
+    // if the given sides make no sense: a wall between bodies that touch has bodies on both sides; else bodies overlap
     const windingNumber winding(s);
     const triSurface& walls = dropped.walls;
     for (label t = 0; t < walls.size(); ++t)
@@ -148,7 +148,7 @@ void sortByPlace(triSurface& s)
         for (label& n : f) n = newNode[n];
         std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
     }
-    // whichever way a facet is turned, its place is the same
+    // the key of a facet does not depend on its orientation
     const auto key = [&](label t) {
         triSurface::triangle f = s.triangles[t];
         std::sort(f.begin(), f.end());

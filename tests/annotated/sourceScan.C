@@ -13,7 +13,7 @@ namespace annotated
 namespace
 {
 
-// Functions of a dictionary, and those that hand a key on to one
+// Functions of a dictionary, and functions that pass a key on to one
 const std::regex call(
     R"(((?:[A-Za-z_][\w.\[\]]*(?:\(\))?)?)(?:\.|->)(getOrDefault|getInRangeOrDefault|getInRange|get|found|isDict|findDict|subDict|subOrEmptyDict|chooseOrDefault|choose|tokens|tokenList)(?:<[^;()]*>)?\(|()\b(Function1::New|New|nonZero|acceleration|radiusOf|rowsIn|inFile|scalarOf|placeOf)(?:<[^;()]*>)?\()");
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// etc/caseDicts/annotated against the sources, both ways: every key that a program asks for is annotated,
-// with its default, its words and its range; every annotated key is one that is asked for.  That the
-// files are valid, with each key in its place, is shown by running them: tests/repository/annotated.sh.
+// Compares etc/caseDicts/annotated with the sources, both ways: every key that a program asks for is annotated,
+// with its default, its words and its range; every annotated key is asked for.  tests/repository/annotated.sh runs the
+// files, which shows that they are valid, with each key in its place.
 #include "cellMultigrid.H"
 #include "dictionary.H"
 #include "fileNames.H"
@@ -21,7 +21,7 @@ using annotated::request;
 namespace
 {
 
-// Which annotated file a request belongs to: by source file and what is asked.  The first line that fits
+// The annotated file to which a request belongs, by source file and key.  The first matching line counts
 struct home
 {
     const char *file, *receiver, *annotated;
@@ -63,8 +63,8 @@ word homeOf(const request& r)
     return "";
 }
 
-// Keys that users choose (names of patches, zones, function objects), or that a function was handed
-// whose callers are looked at
+// Keys that users choose (names of patches, zones, function objects), and keys that a function was given
+// whose callers are scanned
 bool isName(const request& r)
 {
     static const std::set<word> names = {
@@ -78,7 +78,7 @@ struct annotation
     int line;
 };
 
-// Entries, and entries in comments that stand in place of others
+// Entries, and entries in comments that can replace others
 List<annotation> annotations(const word& file)
 {
     static const std::regex entry(
@@ -116,7 +116,7 @@ word unquoted(word text)
     return text;
 }
 
-// What the comment must say: the word, or a number of that value behind `before`
+// True if the comment contains the word, or a number of that value after `before`
 bool says(const word& comment, const word& before, const word& value)
 {
     scalar wanted, given;
@@ -141,7 +141,7 @@ bool isConstant(const word& a)
            (a.size() > 1 && a.front() == '"' && std::count(a.begin(), a.end(), '"') == 2);
 }
 
-// "" or what none of the annotations says
+// The part of the request that none of the annotations contains; "" if there is none
 word unsaid(const request& r, const List<annotation>& at)
 {
     const auto anySays = [&](const word& before, const word& value) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What passes a cyclic pair: at its planes, not on the mean over the sections between them
+// The flux through a cyclic pair is that at its planes, not the mean over the sections between them
 #include "capturedLog.H"
 #include "relative.H"
 #include "cyclicPair.H"
@@ -14,7 +14,7 @@ namespace
 
 constexpr scalar L = 4, H = 1, dx = 0.1, support = 0.26;
 
-// u = 1 + cos(2 pi x/L) along x, on a lattice that lies anyhow
+// u = 1 + cos(2 pi x/L) along x, on a shifted lattice
 particleCloud channel(const vector& shift)
 {
     particleCloud cloud = fluid(
@@ -31,7 +31,7 @@ particleCloud channel(const vector& shift)
 
 TEST_CASE("the flux through a cyclic pair: with the separation, in the log beside the sum")
 {
-    // of cos, weighted with a hat of half width a
+    // mean of cos with a hat function of half width a
     const scalar q = M_PI * 2 * support / L, exact = H * (1 + std::pow(std::sin(q) / q, 2));
     const folder files;
     const word walls =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Profiles of a given flow rate: the largest velocity over the mean is 2 in a circle, 2.0963 in a square (the series of
-// Poiseuille's flow in a duct), 3/2 between plates that slip walls close; a quarter carries a quarter; tables of r/R
+// Profiles of a given flow rate.  The largest velocity over the mean is 2 in a circle, 2.0963 in a square (the series of
+// Poiseuille's flow in a duct), 3/2 between plates closed by slip walls.  A quarter has a quarter of the flow.  Tables of
+// r/R
 #include "core/errorOf.H"
 #include "inflow.H"
 #include "relative.H"
@@ -104,7 +105,7 @@ TEST_CASE("a profile by table, a direction, a vector, and what cannot be")
     CHECK_ERROR(f.given("velocity table ((0 (0 0 1)) (1 (1 0 1)));"), "direction changes", 1);
     CHECK_ERROR(f.given("velocity table ((0 0.1) (1 x));"), "finite number is wanted", 1);
 
-    // what is wrong with a vector is said, too
+    // errors of a vector are reported too
     CHECK_ERROR(
         f.given("velocity { type table; values ((0 (1 0 0)) (1 (1 0 0))); units ([s] [m]); }"),
         "Nor is it a vector over time: ", 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mirror images behind edges that stick out into the fluid, and behind curved walls.
+// Mirror images behind edges that extend into the fluid, and behind curved walls.
 #include <doctest/doctest.h>
 #include "scene.H"
 
@@ -50,7 +50,7 @@ TEST_CASE("behind an edge that sticks out every place is filled once for each pa
     CHECK(checked == 27);
 }
 
-// What lies d before a ball is stretched to the image by ((R + d)/(R - d))^2 within it, (R - d)/(R + d) around it
+// A region at the distance d from a ball is stretched in its image by ((R + d)/(R - d))^2 inside, (R - d)/(R + d) outside
 TEST_CASE("images of curved walls have the volume of the space they fill")
 {
     constexpr scalar R = 6;

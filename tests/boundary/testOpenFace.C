@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ten flow reversals through open faces of every shape, with a prescribed divergence-free velocity:
-// the zone must keep its number of particles and have no gap.
+// Ten flow reversals through open faces of every shape, with a prescribed divergence-free velocity.
+// The zone must keep its number of particles and must have no gap.
 #include <doctest/doctest.h>
 #include "pointGrid.H"
 #include <set>
@@ -21,7 +21,7 @@ struct reversal
     std::function<vector(const vector&)> velocity;  // times cos(2 pi t): displacement ~ 1/(2 pi)
     vector shift = vector::Zero();                  // of the lattice
     triSurface walls;                               // patch walls, may be empty
-    scalar swept = 0;                               // up to there gaps are not looked for
+    scalar swept = 0;                               // no gaps are searched up to this height
 };
 
 struct outcome
@@ -57,7 +57,7 @@ outcome run(const reversal& r, int cycles, int stepsPerCycle)
     particleCloud cloud = fluid(all, dx);
     boundary b(f.path, dictionary::fromString(text), cloud, 2.6 * dx);
 
-    // smoothed over two spacings: layers of the lattice must not count at once
+    // smoothed over two spacings, so that layers of the lattice do not count all at once
     const auto volume = [&] {
         scalar sum = 0;
         for (label i = 0; i < cloud.n(); ++i)
@@ -234,7 +234,7 @@ reversal uniform(reversal r, const vector& displacement)
     return r;
 }
 
-// The displacement swings by the given number of spacings to both sides, ten reversals long
+// Ten reversals; the displacement swings by the given number of spacings to both sides
 outcome tenReversals(const reversal& r, const vector& displacement)
 {
     return run(uniform(r, displacement), 5, 40);
@@ -272,8 +272,8 @@ TEST_CASE("ten reversals across a cylinder with lids")
     check(tenReversals(cylinderScene(), {2, 0, -1.5}));
 }
 
-// A wall that moves with the fluid comes as near as 4 dx to the face: what it takes from the layer before the
-// face is not missing
+// A wall that moves with the fluid comes as near as 4 dx to the face.  The fluid that it displaces from the layer
+// before the face must not count as missing
 TEST_CASE("ten reversals between an open face and a piston")
 {
     reversal r = flatScene();

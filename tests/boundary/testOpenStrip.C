@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the strip beyond an open face takes from the fluid before it
+// The strip beyond an open face takes velocity, pressure and slope from the fluid before it
 #include "relative.H"
 #include "scene.H"
 #include <doctest/doctest.h>
@@ -44,7 +44,7 @@ struct column
     }
 
     scalar depth(label i) const { return cloud.x[i][2] - top; }
-    // p of the strip over p of its face, at a metre's depth
+    // checks p of the strip over p of its face, at a depth of one metre
     void checkSlope(scalar expected)
     {
         for (label i = 0; i < cloud.n(); ++i)
@@ -65,7 +65,7 @@ TEST_CASE(
     c.b->setFlags(c.cloud, rho, g);
     c.checkSlope(-9.81 * rho);
 
-    // friction near the face is the strip's own doing, the acceleration is that of the next three layers
+    // the friction near the face belongs to the strip; the acceleration is that of the next three layers
     List<vec4> friction(c.cloud.n());
     for (label i = 0; i < c.cloud.n(); ++i)
     {
@@ -99,7 +99,8 @@ TEST_CASE("the strip follows the fluid before it, of its own zone where there is
     };
     for (label i = 0; i < c.cloud.n(); ++i)
     {
-        c.cloud.zone[i] = c.depth(i) > 0;  // the strip's is not that of the fluid, but where x > 9
+        // the strip has another zone than the fluid, except where x > 9
+        c.cloud.zone[i] = c.depth(i) > 0;
         const bool own = c.depth(i) <= 0 && c.cloud.x[i][0] > 9;
         if (own) c.cloud.zone[i] = 1;
         c.cloud.Up[i] = vec4::from({0, 0, own ? 2.0 : 1.0});

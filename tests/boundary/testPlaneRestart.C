@@ -19,7 +19,7 @@ particleCloud column(int from, int to)
     return fluid(points, dx, 2);
 }
 
-// Rigid points beside the same particles, of a wall made when the fluid had rows [0, n)
+// Rigid points beside the same particles, for a wall made when the fluid had rows [0, n)
 List<scalar> heights(const word& others, int n)
 {
     folder files;
@@ -45,7 +45,7 @@ List<scalar> heights(const word& others, int n)
 
 TEST_CASE("the points of a plane wall do not depend on where the fluid was when it was made")
 {
-    // a still wall binds the other end
+    // a wall at rest bounds the other end
     const word bottom =
         "bottom { type wall; surface plane; representation particles; "
         "point (0 0 0); normal (0 -1 0); }";

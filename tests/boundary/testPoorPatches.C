@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is wrong with constant/boundary or its surfaces is said with the patch, the place and the remedy
+// Errors in constant/boundary or its surfaces are reported with the patch, the place and the remedy
 #include "core/errorOf.H"
 #include "scene.H"
 
@@ -8,7 +8,7 @@ using namespace scene;
 namespace
 {
 
-// Fluid in the unit cube, ten particles a side
+// Fluid in the unit cube, ten particles per side
 struct cube
 {
     folder files;
@@ -23,7 +23,7 @@ struct cube
     }
 };
 
-// What body writes to stderr
+// The text that body writes to stderr
 word errorOutput(const std::function<void()>& body)
 {
     std::fflush(stderr);
@@ -78,7 +78,7 @@ TEST_CASE("surfaces that are missing, empty, flat to a line, reversed or in othe
     millimetres.scale(1000);
     for (vector& x : millimetres.nodes) x[2] -= 500;
     c.files.surface("base", millimetres);
-    // no error, as the fluid may get there
+    // no error, because fluid may come there later
     CHECK(errorOutput([&] { c.with(wall); }).find("Is its surface in metres?") != word::npos);
     c.files.surface("base", sheet({-1, -1, 0}, {0, 0.5, 0}, {0.5, 0, 0}));
     CHECK_ERROR(c.with(wall + "x0 { type symmetryPlane; point (0 0 0); normal (-1 0 0); }"),
@@ -182,7 +182,7 @@ TEST_CASE("walls that move over a cyclic plane are refused, at the start and as 
     CHECK_ERROR(moveTo(0.27), "moves across the cyclic patch x, and at time 0.27 s", 2);
 }
 
-// Where it stands at the time of the cloud tells on which side of it the particles are
+// The place of the wall at the time of the cloud shows on which side of it the particles are
 TEST_CASE("a moving wall behind its particles")
 {
     cube c;

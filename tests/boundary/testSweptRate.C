@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which zone a moving wall pushes on, and by how much: a piston before two zones, a sheet between them,
-// planes, and what is drawn back
+// The zone that a moving wall pushes on, and the rate: a piston before two zones, a sheet between them,
+// planes, and walls that are drawn back
 #include <doctest/doctest.h>
 #include "relative.H"
 #include "scene.H"
@@ -12,7 +12,7 @@ namespace
 
 constexpr scalar dx = 1, side = 10;
 
-// A cube of fluid in zones 0 and 1, which meet at x = 5 or y = 4 (axis); rates of step [0, 1]
+// A cube of fluid in zones 0 and 1, which meet at x = 5 or y = 4 (axis); rates of the step [0, 1]
 struct rates
 {
     folder files;
@@ -109,7 +109,7 @@ TEST_CASE("a piston in a round bore: its surface elements push as much as it swe
     walls.updateGhosts(cloud);
     scalar pushes = 0;
     for (const surfaceElement& e : cloud.surface) pushes -= e.S.dot(e.u);
-    // elements at the rim reach to the bore and not beyond it
+    // elements at the rim extend to the bore and not beyond it
     CHECK(pushes == relative(walls.swept(cloud).net[0], 1e-6));
     CHECK(pushes == relative(0.1 * M_PI * R * R, 0.005));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Walls thinner than the kernel support: who sees whom across a sheet, past its rim, through a closed
-// plate and the wall of a tube.
+// Walls thinner than the kernel support: which particles see each other across a sheet, past its rim, through a closed
+// plate and through the wall of a tube.
 #include <doctest/doctest.h>
 #include "scene.H"
 
@@ -66,7 +66,7 @@ struct seen
     }
 };
 
-// z = 5, 2.1 < x < 6.8, endless in y
+// The sheet z = 5, 2.1 < x < 6.8, endless in y
 const triSurface sheetAcross = sheet({2.1, 0, 5}, {4.7, 0, 0}, {0, 10, 0}, 3);
 
 bool sheetParts(const vector& a, const vector& b)
@@ -76,7 +76,7 @@ bool sheetParts(const vector& a, const vector& b)
     return x > 2.1 && x < 6.8;
 }
 
-// Does the segment meet the box?
+// True if the segment meets the box
 bool boxParts(const vector& a, const vector& b, const vector& low, const vector& high)
 {
     scalar from = 0, to = 1;
@@ -157,14 +157,14 @@ TEST_CASE("no pair through a closed plate of one spacing, whatever stands for it
     };
     const List<vector> points =
         jittered(lattice(dx, vector::Zero(), {side, side, side}, outside), 0.2);
-    // open at the cyclic sides, where it goes on
+    // open at the cyclic sides, where it continues
     triSurface plate;
     plate.addPatch("sheet");
     const triSurface closed = box({2, 0, 5}, {7, 10, 6});
     for (label t = 0; t < closed.size(); ++t)
         if (std::abs(closed.normal(t)[1]) < 0.5)
             plate.add(closed.corner(t, 0), closed.corner(t, 2), closed.corner(t, 1), 0);
-    // from one large face to the other; through an edge fluid may see fluid
+    // true if the segment passes from one large face to the other; through an edge fluid may see fluid
     const auto through = [](const vector& a, const vector& b) {
         if ((a[2] - 5.5) * (b[2] - 5.5) > 0) return false;
         const vector t = (b - a) / (b[2] - a[2]);
@@ -288,7 +288,8 @@ TEST_CASE("the guard keeps particles on their side of a sheet, by small steps an
                 const vector x = s.cloud.x[i].xyz();
                 from[s.cloud.id[i]] = x;
                 s.cloud.x[i].setXyz(x + stride * vector(unit(random), unit(random), unit(random)));
-                if (stride < 1) s.cloud.x[i][2] += x[2] < 5 ? 0.08 : -0.08;  // pressed on
+                // pressed onto the sheet
+                if (stride < 1) s.cloud.x[i][2] += x[2] < 5 ? 0.08 : -0.08;
             }
             pushed += s.walls->exchange(s.cloud, step + 1);
             for (label i = 0; i < s.cloud.n(); ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a wall's entries say of its motion, written in any of their ways
+// The motion of a wall, with its entries written in each possible way
 #include "core/errorOf.H"
 #include "scene.H"
 #include "wallMotion.H"
@@ -59,7 +59,7 @@ TEST_CASE("a wall that slides: steadily, over time, by its size")
         CHECK(m.slidesWithin(vector(0, 0, 1)));
         CHECK(!m.slidesWithin(vector(0, 1, 0)));
     }
-    // each of its parts counts, also where the value of the moment does not
+    // each part of the function counts, also where its present value is zero
     const wallMotion turns = motionOf("velocity table ((0 (1 0 0)) (1 (0 0 1)));");
     CHECK(!turns.slidesWithin(vector(0, 0, 1)));
     CHECK(turns.slidesWithin(vector(0, 1, 0)));

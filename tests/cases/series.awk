@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# "time name" of each entry of a ParaView series file.  Not JSON of that form: a line that says where.
+# Prints "time name" of each entry of a ParaView series file.  For JSON of another form: a line that names the place.
 function skip() { sub(/^[ \t\n]+/, "", text) }
 function starts(c) { skip(); return substr(text, 1, 1) == c }
 function want(c) {

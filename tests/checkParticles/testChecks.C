@@ -12,7 +12,7 @@ constexpr scalar dx = 1e-3;
 
 const word strip = "structureModel springNetwork; E 1e5; links lattice8;";
 
-// Two-dimensional tank of 30 x 20 particles between symmetry planes, its lowest rows solid
+// Two-dimensional tank of 30 x 20 particles between symmetry planes; its lowest rows are solid
 class tank
 {
 public:
@@ -29,7 +29,7 @@ public:
         disk.particles().attributes["phases"] = "solid fluid";
         auto& zone = disk.particles().integers["zone"];
         for (size_t i = 0; i < zone.size(); ++i) zone[i] = int(i) >= 30 * solidRows;
-        // free below: the fluid's planes do not carry the solid's links
+        // free at its lower side: the planes of the fluid do not carry links of the solid
         disk.boundary = "";
     }
     caseOnDisk disk;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// #calc #eval #neg, #if and its kin, macros in all spellings.  Expected values: what OpenFOAM v1912's
+// #calc #eval #neg, #if and related directives, macros in all spellings.  Expected values are those that OpenFOAM v1912's
 // foamDictionary -expand prints (tests/utilities/foamDictionary.sh compares with the program itself), or arithmetic.
 #include "dictionary.H"
 #include "errorOf.H"
@@ -77,7 +77,7 @@ TEST_CASE("functions that users of OpenFOAM expect in formulas")
     const auto value = [](const word& formula) {
         return parsed("a #eval{ " + formula + " };").get<scalar>("a");
     };
-    // foamDictionary gives these
+    // values printed by foamDictionary
     CHECK(value("pos0(0) + 10*pos(0) + 100*neg0(0) + 1000*neg(0) + 10000*sign(-0.0)") == 10101);
     CHECK(value("pos0(-1) + pos(2) + neg0(3) + neg(-1) + sign(-2)") == 1);
     CHECK(value("rand()") == relative(0.749902, 1e-6));
@@ -186,7 +186,7 @@ TEST_CASE("#if and #ifeq, nested, with #else")
     CHECK(d.subDict("b").get<label>("y") == 4);
 }
 
-// As foamDictionary has it, tests/utilities/foamDictionary.sh
+// As in foamDictionary, see tests/utilities/foamDictionary.sh
 TEST_CASE("#ifeq compares numbers with numbers, and the text of words and strings")
 {
     const auto equal = [](const word& a, const word& b) {
@@ -301,7 +301,7 @@ TEST_CASE("what a few lines can unfold to is bounded")
     CHECK_ERROR(parsed("a a; b " + name + ";"), "more than 20 deep", 1);
     CHECK_ERROR(parsed("a " + word(5000, 'x') + ";"), "more than 1024 characters", 1);
     CHECK_ERROR(parsed("a " + word(2000000, '(') + ";"), "( opened here is never closed", 1);
-    // An expression that lets backtracking engines run for ever
+    // an expression on which engines with backtracking run for ever
     const dictionary d = parsed("\"(a|a)*(a|a)*(a|aa)*b\" 1;");
     CHECK(!d.found(word(2000, 'a')));
     CHECK_ERROR(parsed("\"((a{1,200}){1,200}){1,200}\" 1;"), "not a regular expression", 1);

@@ -207,7 +207,7 @@ TEST_CASE("#include in a circle is found out")
     f.write("two", "#include \"./three\"");
     f.write("three", "\n\n#include \"one\"");
     CHECK_ERROR(dictionary::fromFile(f.path + "/one"), "each other in a circle", 3);
-    // Twice the same file is no circle
+    // the same file twice is no circle
     f.write("leaf", "x 1;");
     CHECK(
         dictionary::fromFile(f.write("twice", "#include \"leaf\"\n#include \"leaf\"")).found("x"));

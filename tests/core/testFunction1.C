@@ -196,7 +196,7 @@ TEST_CASE("units: behind a number, of a table, of the columns of a csv file")
     CHECK(inUnits(csv + "flow); }", dims::flowRate, c.path)->value(0.25) == relative(0.5e-6));
     CHECK(inUnits(csv + "p); }", dims::pressure, c.path)->value(0.5) == relative(15998.6865));
     CHECK_ERROR(inUnits(csv + "p); }", dims::flowRate, c.path), "Column 'p' is in [mmHg]", 1);
-    // said twice it holds once
+    // the unit given twice counts once
     CHECK(inUnits(csv + "p); units ([ms] [mmHg]); }", dims::pressure, c.path)->value(0.5) ==
           relative(15998.6865));
     CHECK_ERROR(inUnits(csv + "p); units ([s] [mmHg]); }", dims::pressure, c.path),

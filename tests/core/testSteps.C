@@ -131,7 +131,7 @@ TEST_CASE("adjustableRunTime: instants are hit exactly, and no step is tiny")
         "deltaT 0.1; endTime 1; writeControl adjustableRunTime; writeInterval 0.25;"
         "writeTimes (0.3 0.61803);");
     Time t = c.time();
-    // An irregular wish, changing by 30 % and never a divisor of the interval
+    // an irregular requested step: it changes by 30 % and never divides the interval
     const auto wish = [](scalar now) { return 0.017 * (1 + 0.3 * std::sin(40 * now)); };
     const record r = runThrough(t, wish);
     CHECK(r.written == List<scalar>{0.25, 0.3, 0.5, 0.61803, 0.75, 1});

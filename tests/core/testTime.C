@@ -276,7 +276,7 @@ TEST_CASE("mistakes in controlDict")
     CHECK_ERROR(t.setDeltaT(NAN), "must be positive", 0);
 }
 
-// Last, because the flag is for the whole program
+// The last test, because the flag is set for the whole program
 TEST_CASE("a signal: the step is finished, written, and the run ends")
 {
     const clockCase c("deltaT 1; endTime 9; writeControl none;");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// writeFormat ascii: the same state bit by bit, as text that OpenFOAM's own reader takes
+// writeFormat ascii: the same state bit by bit, as text that OpenFOAM's own reader accepts
 #include "fileNames.H"
 #include "particleState.H"
 #include "sampleTable.H"
@@ -13,7 +13,7 @@ using namespace ispf;
 namespace
 {
 
-// Text holds whole numbers up to 2^53
+// Text can hold whole numbers up to 2^53
 particleTable asciiTable(size_t n)
 {
     particleTable table = sampleTable(n);
@@ -40,7 +40,7 @@ TEST_CASE("text reads back bit by bit, whatever the precision of ParaView's copy
         table.scalars["Up_0:w"].assign(n, 1.0 / 3);
         writeState(table, folder / "0.3", stateFormat::ascii, 3);
         CHECK(sameBits(table, readState(folder / "0.3")));
-        // what the last one had and this one has not is gone
+        // fields of the previous table that this one does not have are removed
         table.scalars.erase("Up_0:w");
         writeState(table, folder / "0.3", stateFormat::ascii, 3);
         CHECK(sameBits(table, readState(folder / "0.3")));

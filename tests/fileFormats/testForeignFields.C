@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What others put into a state: arrays of any number of components stay, of what does not it is said
+// Fields of other programs in a state: arrays of any number of components are kept; a message names the rest
 #include "capturedErrors.H"
 #include "fileNames.H"
 #include "hdf5File.H"
@@ -15,7 +15,7 @@ using namespace ispf;
 namespace
 {
 
-// As other programs do
+// Edits a file as other programs do
 class editor
 {
 public:
@@ -100,7 +100,7 @@ TEST_CASE("arrays of any number of components come out as they went in, in both 
                        counted<int>(5 * k));
         }
         file.array(columns + "i3", H5T_NATIVE_INT, {5, 3}, counted<int>(15));
-        // names that look like components, beside those of arrays and alone
+        // names that look like components, beside arrays of that name and alone
         for (const word name : {"s2[0]", "b[0]", "c[0]", "c[1]", "s2:0"})
             file.array(columns + name, H5T_NATIVE_DOUBLE, {5}, counted<double>(5));
         file.array(columns + "i4[0]", H5T_NATIVE_DOUBLE, {5}, counted<double>(5));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ParaView itself opens what we write.  Skipped where pvbatch or xvfb-run is not installed.
+// ParaView itself opens the files.  Skipped if pvbatch or xvfb-run is not installed.
 #include "particleTable.H"
 #include "scratchFolder.H"
 

@@ -85,7 +85,7 @@ TEST_CASE("columns of unequal length and impossible names are refused")
     }
     CHECK(folder.nFiles() == 0);
 
-    // on disk: a column shortened by somebody else
+    // a column on disk that another program has shortened
     hdf5Writer foreign;
     foreign.write("/VTKHDF/Points", table.x);
     foreign.write("/VTKHDF/PointData/p", List<scalar>(9));
@@ -131,7 +131,7 @@ TEST_CASE("changed bytes are an error or change nothing, never a crash")
     }
 }
 
-// HDF5 1.10.8 reads beyond its memory here; one that is mended may give a reason of its own
+// HDF5 1.10.8 reads beyond its memory here; a repaired version may give its own reason
 TEST_CASE("damage on which the HDF5 library crashes is an error")
 {
     const scratchFolder folder("fault");

@@ -12,7 +12,7 @@ using namespace ispf;
 namespace
 {
 
-// Lets no file of this process grow beyond `bytes`: writing then fails as on a full disk
+// Limits the size of files of this process to `bytes`: writing then fails as on a full disk
 class fileSizeLimit
 {
 public:

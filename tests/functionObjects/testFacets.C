@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a surface's integrals are summed over: as many pieces as its area wants, however it is triangulated
+// Facets, over which surface integrals are summed: their number follows from the area, not from the triangulation
 #include "facets.H"
 #include "relative.H"
 #include "roundSurfaces.H"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces against exact ones, surface samples, and the same afterwards from the written times
+// Forces compared with exact ones, surface samples, and the same values computed later from the written times
 #include "core/errorOf.H"
 #include "relative.H"
 #include "roundSurfaces.H"
@@ -17,7 +17,7 @@ namespace
 constexpr scalar rho = 1000, mu = 1e-3, g = 9.81;
 constexpr scalar side = 10e-3;  // of the box [0, side]^3
 
-// Mirror walls and cyclic sides: linear flow goes on beyond them, and the viscosity's pair sum is exact
+// Mirror walls and cyclic sides: linear flow continues beyond them, and the pair sum of the viscosity is exact
 word channel(scalar speed)
 {
     return "floor { type wall; representation mirror; surface plane; point (0 0 0); normal (0 0 "
@@ -30,7 +30,7 @@ word channel(scalar speed)
            "sides { type cyclic; point (0 0 0); separation (0 10e-3 0); }";
 }
 
-// A box of 10^3 particles between a floor and a lid, open at its sides but for one wall
+// A box of 10^3 particles between a floor and a lid, with open sides except one wall
 struct box : testCase
 {
     box()
@@ -59,13 +59,13 @@ struct box : testCase
     }
 };
 
-// total, pressure, viscous: three components each behind the time
+// total, pressure, viscous: three components each, after the time
 vector part(const List<scalar>& row, int which)
 {
     return {row[1 + 3 * which], row[2 + 3 * which], row[3 + 3 * which]};
 }
 
-// Of the velocities
+// Laplacian of the velocities
 List<vec4> laplacian(const presentState& s)
 {
     viscousPairs viscous;
@@ -91,7 +91,7 @@ TEST_CASE("hydrostatic pressure on floor and side, with its moment")
     CHECK((part(sum, 0) - onFloor - onLeft).norm() < 1e-10);
     CHECK(part(sum, 2).norm() < 1e-12);
     CHECK(sum.back() == 1);  // all covered
-    // the side's force acts at a third of the height: by triangles of 1.5 dx
+    // the force on the side acts at a third of the height, up to triangles of 1.5 dx
     const vector moment = part(t.rows("f/0/moment_left.dat").front(), 0);
     CHECK(moment[1] == relative(onLeft[0] * side / 3, 0.01));
     CHECK(t.output("f/0/force.dat")
@@ -151,7 +151,7 @@ TEST_CASE(
     for (const vec4& v : laplacian(s)) lost -= mu * s.cloud.volume() * v.xyz();
     CHECK((paid - lost).norm() < 1e-9 * lost.norm());
 
-    // a solid slab on the floor takes the floor's place
+    // a solid slab on the floor replaces the floor
     box slab;
     slab.particles = {}, slab.zones = {"slab", "water"}, slab.phases = {"solid", "fluid"};
     slab.addBlock("slab", {0, 0, 0}, {10, 10, 3});
@@ -188,7 +188,7 @@ TEST_CASE(
     vector floor = part(corner.rows("f/0/force_floor.dat").front(), 2);
     vector left = part(corner.rows("f/0/force_left.dat").front(), 2);
     CHECK((floor + left - both).norm() < 1e-12 * both.norm());
-    // alike but for which way the flow goes; pairs midway between them are the floor's
+    // equal except for the flow direction; pairs midway between both belong to the floor
     CHECK(floor[0] / u[0] == relative(left[2] / u[2], 0.01));
 
     corner.boundary =
@@ -255,7 +255,7 @@ TEST_CASE("energies of a given state")
     t.functions = "e { type energy; writePrecision 12; }";
     t.write("constant/g", "value (0 0 -9.81);");
     const List<scalar> row = t.measured("e/0/energy.dat");
-    const scalar squares = (side * side / 3 - 1e-6 / 12);  // the lattice's mean of z^2
+    const scalar squares = (side * side / 3 - 1e-6 / 12);  // mean of z^2 over the lattice
     CHECK(row[1] == relative(0.5 * rho * V * rate * rate * squares, 1e-9));
     CHECK(row[2] == 0);
     CHECK(row[3] == relative(rho * g * V * side / 2, 1e-9));

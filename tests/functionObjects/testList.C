@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// When function objects write, and what is refused
+// When function objects write, and which entries are refused
 #include "capturedErrors.H"
 #include "core/errorOf.H"
 #include "dataFile.H"

@@ -23,7 +23,7 @@ TEST_CASE("momentum of a turning block that moves: linear, angular, centre")
     const List<scalar> row = box.rows("motion/0/momentum.dat").at(0);
     REQUIRE(row.size() == 10);
     const scalar mass = 72 * 1000 * std::pow(box.dx, 3);
-    // sum of m (r^2 omega - r (r.omega)) over an evenly filled lattice: (n^2 - 1) dx^2/12 an axis
+    // sum of m (r^2 omega - r (r.omega)) over an evenly filled lattice: (n^2 - 1) dx^2/12 per axis
     const vector squares = box.dx * box.dx / 12 * vector(35, 15, 8);
     const vector spin =
         mass * vector(squares[1] + squares[2], squares[2] + squares[0], squares[0] + squares[1])

@@ -11,8 +11,8 @@ using doctest::Approx;
 namespace
 {
 
-// Quarter x > 0, y > 0 of a block of fluid below z = 10 mm and of wall above it; U and p are linear
-// and fit the symmetry planes x = 0, y = 0
+// Quarter x > 0, y > 0 of a block of fluid below z = 10 mm and of wall above it.  U and p are linear
+// and compatible with the symmetry planes x = 0, y = 0
 const particleCloud& quarter()
 {
     static particleCloud t;

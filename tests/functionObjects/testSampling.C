@@ -11,7 +11,7 @@ using namespace ispf;
 namespace
 {
 
-// Velocity and pressure linear in space: what every interpolation must give exactly
+// Velocity and pressure are linear in space: every interpolation must give them exactly
 const tensor gradU = (tensor() << 1, 2, 3, 4, 5, 6, 7, 8, -6).finished();
 vector velocityAt(const vector& x)
 {

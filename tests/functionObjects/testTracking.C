@@ -110,7 +110,7 @@ TEST_CASE("an affine motion is followed exactly: volume by the determinant, diam
 
 TEST_CASE("inflation at constant wall volume: rho = sqrt(r^2 + c)")
 {
-    // The vertices lie half a spacing inside the particles they follow; a linear fit errs by 1.1 %
+    // the vertices lie half a spacing inside the particles that they follow; a linear fit would have an error of 1.1 %
     shell s;
     s.functions =
         "diameter { type zoneDiameter; surface inner; point (0 0 10.3e-3); axis (0 0 1);"

@@ -12,7 +12,7 @@ namespace ispf::fuzz
 namespace
 {
 
-// Bits of the first byte choose among what an entry can say about its file
+// The bits of the first byte choose the options of the entry for the file
 word entryFor(const word& path, unsigned how)
 {
     const word outOfBounds[] = {"error", "warn", "clamp", "repeat"};

@@ -30,7 +30,7 @@ constexpr void (*questions[])(const ispf::dictionary&, const word&) = {
     ask<vector>,     ask<tensor>,       ask<List<scalar>>, ask<List<label>>,
     ask<List<word>>, ask<List<vector>>, askWord,           askFunction};
 
-// One question each: most end in an exception, which takes its time under the sanitizers
+// Asks one question each: most end in an exception, which is slow under the sanitizers
 void askAll(const ispf::dictionary& d, size_t& turn)
 {
     for (const word& key : d.keys())

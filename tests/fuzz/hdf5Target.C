@@ -15,7 +15,7 @@ namespace ispf::fuzz
 namespace
 {
 
-// Small values from the bytes, zero behind their end
+// Small values from the bytes, zero after their end
 class byteSource
 {
 public:
@@ -46,7 +46,7 @@ const word names[] = {"/VTKHDF/Points",
                       "/VTKHDF",
                       "/ispf"};
 
-// A sound HDF5 file of any content: what another program might have written under our names
+// A sound HDF5 file of any content, such as another program might write under our names
 word composed(byteSource& in)
 {
     hdf5Writer out;
@@ -83,7 +83,7 @@ word composed(byteSource& in)
     return out.bytes();
 }
 
-// The bytes of a file as this program family writes them
+// The bytes of a file as these programs write it
 word soundFile()
 {
     particleTable t;
@@ -102,7 +102,7 @@ word soundFile()
     return bytes;
 }
 
-// A few of its bytes altered: what libFuzzer, blind inside of the HDF5 library, would hardly hit upon
+// A sound file with a few bytes changed: libFuzzer, which cannot see into the HDF5 library, would hardly find these
 word patched(byteSource& in)
 {
     static const word sound = soundFile();

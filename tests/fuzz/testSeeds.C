@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Seeds and former findings of `make fuzz`, and a few thousand mutations of them, the same each time;
-// ISPF_MUTATIONS=n in the environment: so many of each reader
+// Seeds and former findings of `make fuzz`, and a few thousand mutations of them, which are always the same.
+// ISPF_MUTATIONS=n in the environment sets their number per reader
 #include "fileNames.H"
 #include "targets.H"
 
@@ -30,7 +30,7 @@ List<word> seedsOf(const word& name)
     return paths;
 }
 
-// One to four changes: a byte replaced, a piece removed, doubled or put elsewhere
+// Makes one to four changes: a byte is replaced, a piece is removed, doubled or moved
 word mutated(word text, std::mt19937& random)
 {
     const auto below = [&](size_t n) { return size_t(random()) % std::max<size_t>(1, n); };
@@ -56,7 +56,7 @@ word mutated(word text, std::mt19937& random)
     return text;
 }
 
-// What the readers warn of is of no interest here
+// Hides the warnings of the readers
 struct quietStderr
 {
     int kept = ::dup(STDERR_FILENO);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The IGES files of the hemisphere-capped cylinder hold the volumes that their dimensions give, and so
-// the published numbers of particles
+// The IGES files of the hemisphere-capped cylinder have the volumes that follow from their dimensions, and
+// so the published numbers of particles
 #include "fileFormats/scratchFolder.H"
 #include "particleDict.H"
 #include "relative.H"
@@ -59,7 +59,7 @@ bool hasColour(const cadFace& face, const std::array<int, 3>& colour)
     return face.coloured;
 }
 
-// The volume that owns a face of that colour, meshed; `known`: what the CAD kernel says [mm3]
+// Volume that owns a face of that colour, from its mesh [mm3]; known: the same from the CAD kernel [mm3]
 scalar meshedVolume(const cadModel& cad, const std::array<int, 3>& colour, scalar& known)
 {
     for (const cadVolume& v : cad.volumes)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// STL as others write it, and what is none
+// STL files as other programs write them, and files that are no STL
 #include "testShapes.H"
 
 #include <cstring>

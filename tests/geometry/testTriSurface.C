@@ -133,10 +133,10 @@ TEST_CASE("volumes cut by planes are exact")
     const halfSpace x{vector(0.25, 0, 0), vector(1, 0, 0)}, y{vector(0, 0, 0), vector(0, -1, 0)};
     CHECK(clippedVolume(s, {x}) == doctest::Approx(1.25 * 4).epsilon(1e-12));
     CHECK(clippedVolume(s, {x, y}) == doctest::Approx(1.25 * 2).epsilon(1e-12));
-    // The corner cut off by x + y + z = 1 is a tetrahedron of volume 2^3/6
+    // x + y + z = 1 cuts off a corner: a tetrahedron of volume 2^3/6
     const halfSpace oblique{vector(1, 0, 0), vector(1, 1, 1).normalized()};
     CHECK(clippedVolume(s, {oblique}) == doctest::Approx(8 - 8.0 / 6).epsilon(1e-12));
-    // Quarter and three oblique cuts of a polyhedron with no symmetry: parts add up to the whole
+    // a quarter and three oblique cuts of a polyhedron without symmetry: the parts add up to the whole
     const triSurface ball = sphere({0.1, -0.05, 0.02}, 1, 3);
     const halfSpace cut{vector(0.1, 0.2, 0), vector(1, 2, -1).normalized()};
     const halfSpace rest{cut.point, -cut.normal};

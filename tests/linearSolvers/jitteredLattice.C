@@ -20,7 +20,7 @@ scalar pairWeight(scalar q)
     return std::pow(std::max(0.0, 1 - q), 3);
 }
 
-// Neighbours by cells of at least the support
+// Neighbour search by cells as wide as the support or wider
 class cellGrid
 {
 public:
@@ -33,7 +33,7 @@ public:
         for (size_t i = 0; i < x.size(); ++i) rows_[cellOf(x[i])].push_back(label(i));
     }
 
-    // body(j) for the points of the 27 cells around point i
+    // Calls body(j) for the points of the 27 cells around point i
     void around(label i, const std::function<void(label)>& body) const
     {
         const cellIndex own = cellOf(x_[i]);

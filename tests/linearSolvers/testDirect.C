@@ -13,7 +13,7 @@ using namespace ispf;
 namespace
 {
 
-// Springs along the pairs of the lattice, each particle held a little
+// Springs along the pairs of the lattice; each particle is held a little
 blockMatrix3 springs(const jitteredLattice& lattice)
 {
     blockMatrix3 K;
@@ -30,7 +30,7 @@ blockMatrix3 springs(const jitteredLattice& lattice)
     return K;
 }
 
-// One is linked to its own image beyond a symmetry plane: its row has a block of its own unknown among the others
+// One particle has a link to its own image beyond a symmetry plane: its row has a block in its own column
 blockMatrix3 withOwnImage(blockMatrix3 K, label i)
 {
     K.column.insert(K.column.begin() + K.rowStart[i], i);
@@ -172,7 +172,7 @@ TEST_CASE("3x3 blocks: product, expansion, Cholesky")
     for (label i = 0; i < K.size(); ++i) CHECK((back[i].xyz() - force[i].xyz()).norm() < 1e-4);
 }
 
-// A long bar, whose elimination tree has parts, and supernodes wider than a block above them
+// A long bar: its elimination tree has parts, and above them supernodes wider than a block
 TEST_CASE(
     "the block factor in single precision: close to the exact solution, on any number of threads")
 {

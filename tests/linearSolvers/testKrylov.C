@@ -30,7 +30,7 @@ jitteredLattice heldLattice(int n)
     return {n, n, n, c};
 }
 
-// Rows scaled unequally and an antisymmetric part: a matrix far from symmetric
+// Unequally scaled rows and an antisymmetric part: a matrix far from symmetric
 csrMatrix unsymmetric(const csrMatrix& symmetric)
 {
     csrMatrix A(symmetric);
@@ -64,7 +64,7 @@ scalar relativeDifference(const List<scalar>& a, const List<scalar>& b)
     return (x - y).norm() / y.norm();
 }
 
-// A preconditioner that is never the same twice
+// A preconditioner that is different at each application
 class fickle : public preconditioner
 {
 public:
@@ -162,7 +162,7 @@ TEST_CASE("flexible methods bear a preconditioner that varies")
     const csrMatrix skew = unsymmetric(lattice.A);
     const List<scalar> b = randomVector(lattice.A.size(), 1);
     List<scalar> x(b.size(), 0);
-    // The plain method (Fletcher-Reeves) does not get there in 500 iterations
+    // the plain method (Fletcher-Reeves) does not converge in 500 iterations
     CHECK(PCG(controls(1e-8), "p").solve(lattice.A, fickle(lattice.A, 0.3), b, x).converged);
     CHECK(relativeResidual(lattice.A, b, x) < 2e-8);
     x.assign(b.size(), 0);
@@ -187,7 +187,7 @@ TEST_CASE("an exact preconditioner needs one iteration")
 
 TEST_CASE("FGMRES: scaled residual")
 {
-    // The same system in other units, row by row
+    // the same system in other units, row by row
     const jitteredLattice lattice = heldLattice(8);
     const label n = lattice.A.size();
     csrMatrix A(lattice.A);
@@ -278,8 +278,8 @@ TEST_CASE("what goes wrong is told")
 
 TEST_CASE("FGMRES: nearly parallel vectors are made orthogonal a second time")
 {
-    // One row far larger than the others: almost all of each product lies along it, that is, in the
-    // basis already
+    // One row is far larger than the others: almost all of each product lies along it, that is, already in the
+    // basis
     const label n = 80;
     List<csrMatrix::triplet> entries = {{0, 0, 1e10}};
     for (label i = 1; i < n; ++i) entries.push_back({i, i, scalar(i)});
@@ -295,7 +295,7 @@ TEST_CASE("what goes wrong inside FGMRES")
     jitteredLattice::choices floating;
     const jitteredLattice lattice(6, 6, 6, floating);
     const noPreconditioner none;
-    // Nothing holds the constant, and b asks for it
+    // nothing fixes the constant, and b contains it
     List<scalar> b(lattice.A.size(), 1), x(b.size(), 0);
     b[0] = 2;
     CHECK(FGMRES(controls(1e-8), "p", 10).solve(lattice.A, none, b, x).status ==

@@ -35,7 +35,7 @@ label iterations(const jitteredLattice& lattice, const word& cycle)
 {
     const cellMultigrid multigrid(lattice.A, lattice.x, options(lattice, cycle));
     CHECK(multigrid.levelSizes().size() > 2);
-    // Rough and smooth parts alike
+    // rough and smooth parts in equal measure
     List<scalar> b = randomVector(lattice.A.size(), 3), x(b.size(), 0);
     for (label i = 0; i < lattice.A.size(); ++i)
         b[i] += 3 * std::sin(0.1 * lattice.x[i].sum()) + 3 * std::cos(0.15 * lattice.x[i][2]);
@@ -78,7 +78,7 @@ TEST_CASE("multigrid: thin wall without coupling, open at one end")
 {
     jitteredLattice::choices c;
     c.held = topHeld;
-    // In the middle of a cell, so that its two sides share cells
+    // the wall is in the middle of a cell, so that its two sides share cells
     c.joined = [](const vector& a, const vector& b) {
         return (a[0] - 15) * (b[0] - 15) > 0 || std::min(a[2], b[2]) > 20;
     };
@@ -158,7 +158,7 @@ TEST_CASE("multigrid: rows without couplings, drops, and a stray point far away"
 {
     jitteredLattice::choices c;
     c.held = topHeld;
-    // Every ninth layer stands alone, its points are rows of their own
+    // every ninth layer has no couplings: its points are single rows
     c.joined = [](const vector& a, const vector& b) {
         return std::abs(a[2] - 9) > 0.5 && std::abs(b[2] - 9) > 0.5 && (a[2] - 9) * (b[2] - 9) > 0;
     };
@@ -181,7 +181,7 @@ TEST_CASE("multigrid: rows without couplings, drops, and a stray point far away"
 
 TEST_CASE("multigrid: small systems are solved exactly, the singular one too")
 {
-    // A chain with whole numbers: without its pin the coarsest matrix is singular to the last bit
+    // a chain with whole numbers: without its pin the coarsest matrix is singular to the last bit
     List<csrMatrix::triplet> entries;
     List<vector> x(20);
     for (label i = 0; i < 20; ++i)

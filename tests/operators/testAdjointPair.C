@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Properties of the operators of the discrete energy balance, on random fields and disordered particles
+// Properties of the operators of the discrete energy balance, for random fields and disordered particles
 #include "boxWorld.H"
 #include "particleShifting.H"
 #include "viscousPairs.H"
@@ -60,7 +60,7 @@ TEST_CASE(
             cloud.fillGradientGhosts(u);
             const List<scalar> div = w.divergence(u);
             const List<vec4> p = randomField(cloud, 5);
-            // of each body of fluid by itself
+            // for each body of fluid separately
             const bool divided = w.name.starts_with("divided");
             const auto body = [&](const vector& x) { return divided && x[0] > 0.5; };
             vector lacks[2] = {vector::Zero(), vector::Zero()};
@@ -108,7 +108,7 @@ TEST_CASE("the stabiliser is symmetric, takes energy, and leaves linear pressure
             };
             CHECK(pSp == doctest::Approx(product(gp, gp)).epsilon(1e-12));
             CHECK(std::abs(qSp - product(gq, gp)) < 1e-13 * pSp);
-            // linear p, seen away from cyclic sides and symmetry planes, where it has a kink
+            // linear p, far from cyclic sides and symmetry planes, where it has a kink
             if (!w.closed || w.name.starts_with("cyclic") || w.name.starts_with("symmetry") ||
                 w.name.starts_with("divided"))  // three or four particles wide
                 continue;
@@ -197,12 +197,12 @@ TEST_CASE("shifting makes no new extremum, gains no more energy than it may, and
                 for (label i = 0; i < cloud.n(); ++i)
                 {
                     const vector u = before[i].xyz(), now = cloud.Up[i].xyz(), d = now - u;
-                    // as far as it goes in the direction in which it changes, a neighbour is already
+                    // the velocity changes in a direction only as far as a neighbour's velocity in this direction
                     const vector along = d.norm() > 0 ? vector(d.normalized()) : d;
                     scalar high = 0;
                     for (std::int64_t k = w.list.start[i]; k < w.list.start[i + 1]; ++k)
                         high = std::max(high, along.dot(before[w.list.index[k]].xyz() - u));
-                    // the direction of a small change is that of what rounding leaves of it
+                    // the direction of a small change is that of its rounding error
                     const scalar rounding = d.norm() > 0 ? 1e-16 / d.norm() : 0;
                     beyond = std::max(beyond, d.norm() - high - rounding);
                     momentum += d, changes += d.norm(), energy += d.dot(u) + 0.5 * d.squaredNorm();

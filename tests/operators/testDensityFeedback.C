@@ -14,8 +14,8 @@ namespace
 
 constexpr scalar dt = 0.1;
 
-// A pipe of 60 by 15 particles between walls, dx = 1, open at both ends: beyond each lie four columns whose pressure
-// is given.  With two zones the front one is a third of it
+// A pipe of 60 by 15 particles between walls, dx = 1, open at both ends: beyond each end are four columns with given
+// pressure.  With two zones the front zone is a third of the pipe
 struct openPipe
 {
     static constexpr int length = 60, width = 15, strip = 4;
@@ -42,7 +42,7 @@ struct openPipe
         displace(disorder, 3);
     }
 
-    // Further, at random
+    // Displaces the particles further, at random
     void displace(scalar disorder, unsigned seed)
     {
         std::mt19937 random(seed);
@@ -92,7 +92,7 @@ private:
     }
 };
 
-// Mean over the particles of which isOf(i) is true, e of their cells, w at C = 1, and the change of e that has no effect
+// Means over the particles with isOf(i): e of their cells, w at C = 1, and the change of e that has no effect
 struct meanOf
 {
     scalar e, w, band;
@@ -139,7 +139,7 @@ scalar next(scalar q, scalar w, scalar change)
     return q + (1 - std::exp(-4 * w * dt)) * (w * change - q);
 }
 
-// The first step of a run, of no length: it notes the state
+// The first step of a run, of zero length: it stores the state
 void begin(openPipe& p)
 {
     densityFeedback feedback = with("densityFeedback 1;", p.cloud);
@@ -148,7 +148,7 @@ void begin(openPipe& p)
     feedback.book(p.cloud, 0);
 }
 
-// A disordered pipe that has lost ten particles since it began
+// A disordered pipe that has lost ten particles since its start
 struct emptied : openPipe
 {
     const scalar start;  // e
@@ -219,7 +219,7 @@ TEST_CASE("density feedback: none at the start, next to none of disorder that co
             openPipe other(0);
             other.displace(0.2, seed), other.cloud.history = p.cloud.history;
             densityFeedback goesOn = with("densityFeedback 1;", other.cloud);
-            // one particle too many or too few is 0.0011
+            // one particle more or less is 0.0011
             CHECK(std::abs(sourceOf(other, goesOn)[9]) < 0.0025 * next(0, meanOf(other).w, 1));
         }
     }
@@ -271,7 +271,7 @@ TEST_CASE("density feedback: none if closed, with a source of its own, or at res
     CHECK(sourceOf(p, feedback, List<char>(n, 0), nothing) == nothing);
     CHECK(sourceOf(p, feedback, List<char>(n, 1), given) == given);
 
-    // an eighth of it has a source, another eighth is not drained: they are not counted either
+    // an eighth of the pipe has a source, another eighth is not drained: both do not count
     List<char> drained(n, 1);
     List<scalar> some(n, 0);
     const auto of = [&](label i) { return int(p.cloud.x[i][0] + 10) % 8; };

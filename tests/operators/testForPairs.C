@@ -11,8 +11,8 @@ using namespace ispf;
 namespace
 {
 
-// Solids and fluid strewn at random, some of the fluid beyond a face that gives its velocity, with an image in a symmetry
-// plane, an image in a wall and a rigid particle for every third of them
+// Random solids and fluid.  Part of the fluid is beyond a face that gives its velocity.  Every third particle has an image
+// in a symmetry plane, an image in a wall and a rigid particle
 struct strewn
 {
     particleCloud cloud;
@@ -44,14 +44,14 @@ struct strewn
         return cloud.phase[j] == phaseType::rigid || cloud.phase[j] == phaseType::mirror;
     }
     bool given(label j) const { return cloud.velocityGiven(cloud.ownerOf(j)); }
-    // Does the pair lie across an open face, or beyond it?
+    // True if the pair lies across an open face or beyond it
     bool isCut(label i, label j) const
     {
         return cloud.phase[i] == cloud.phase[j] && (given(i) || given(j));
     }
 };
 
-// Rows that the filter names, among all particles within reach
+// Checks the rows of the filter against all particles within reach
 template <among which, class Expected>
 void checkFilter(const strewn& s, const Expected& expected)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Energy, momentum and extrema of shifted flows: testAdjointPair.C
+// For energy, momentum and extrema of shifted flows see testAdjointPair.C
 #include "approachLimit.H"
 #include "core/errorOf.H"
 #include "particleShifting.H"
@@ -15,7 +15,7 @@ namespace
 
 constexpr scalar noLimit = 1e30;
 
-// A disordered box with a flow in it, seen by an observer who moves at -drift
+// A disordered box with a flow, seen by an observer who moves at -drift
 periodicBox disordered(const vector& drift = vector::Zero())
 {
     periodicBox box(2, 12, 0.2, "WendlandC2", 1.3);
@@ -35,7 +35,7 @@ scalar shift(particleCloud& cloud, const neighbourList& list, const kernelCorrec
     return shifting.shift(cloud, list, B, 0.01, noLimit, leaveAlone);
 }
 
-// Where shifting takes the particles
+// Places of the particles after shifting
 List<vec4> shifted(const word& entries, const word& frame, const vector& drift)
 {
     periodicBox box = disordered(drift);
@@ -58,7 +58,7 @@ enum class below
     rigid
 };
 
-// A lattice of fluid with three rows of something else below it, its sides and its top free
+// A lattice of fluid above three rows of another phase; sides and top are free
 struct column
 {
     static constexpr scalar dx = 0.1;
@@ -156,7 +156,7 @@ TEST_CASE("in a linear flow a particle takes over the velocity of its new place"
     for (label i = 0; i < cloud.n(); ++i)
         cloud.Up[i] = vec4::from((A * cloud.x[i].xyz()).head<3>());
     box.update();
-    // where there are walls, nothing has to hold the momentum
+    // with walls nothing has to keep the momentum
     cloud.surface.push_back({{9, 9, 0}, {1, 0, 0}, {0, 0, 0}, true});
     const List<vec4> x = cloud.x;
     shift(cloud, box.list, box.B, "");
@@ -274,7 +274,7 @@ TEST_CASE(
 
 TEST_CASE("no wave of displacement grows by shifting, however far the fluid goes in the step")
 {
-    // numbers of another program
+    // values from another program
     const auto known = [](int nDims, const word& kernel, scalar hByDx) {
         return shiftStiffness::ofLattice(*smoothingKernel::New(kernel, nDims, 0.1 * hByDx), nDims,
                                          0.1);
@@ -296,7 +296,7 @@ TEST_CASE("no wave of displacement grows by shifting, however far the fluid goes
             const particleShifting shifting(
                 dictionary::fromString(""), "still",
                 limited ? known(nDims, "WendlandC2", 1.3) : shiftStiffness());
-            // columns in turn to the left and to the right
+            // columns move alternately to the left and to the right
             const auto place = [&](label i) { return std::floor(cloud.x[i][0] / dx) + 0.5; };
             const auto side = [&](label i) { return std::lround(place(i) - 0.5) % 2 ? -1 : 1; };
             const auto amplitude = [&] {

@@ -38,7 +38,7 @@ struct channel
     kernelCorrection B;
     csrMatrix A;
 
-    // m, b for the lower and the upper side; shearOfImages displaces them, so that distances are
+    // m, b for the lower and the upper side.  shearOfImages displaces the images, so that distances are
     // not those of a true reflection, as beside a curved wall
     channel(scalar mLow, scalar bLow, scalar mHigh, scalar bHigh, scalar shearOfImages = 0,
             scalar disorder = 0.2)
@@ -71,7 +71,7 @@ struct channel
         sphm::laplacian({cloud, list, B}, A);
     }
 
-    // What the offsets b of images bring to the right side: they are not the matrix's business
+    // The part of the offsets b of images in the right side; the matrix does not contain it
     List<scalar> ofOffsets() const
     {
         List<scalar> f(cloud.n(), 0);
@@ -196,7 +196,7 @@ TEST_CASE("a closed box is solved up to a constant, by conjugate gradients as by
     PCG solver({1e-12, 0, 0, 1000}, "p");
     CHECK(solver.solve(c.A, noPreconditioner(), f, p).converged);
     Eigen::MatrixXd pinned = dense(c.A);
-    pinned.array() += 1;  // adds the constant's own eigenvalue
+    pinned.array() += 1;  // adds the eigenvalue of the constant
     const Eigen::VectorXd exact = pinned.ldlt().solve(asEigen(f));
     const scalar mean = asEigen(p).mean();
     for (label i = 0; i < c.cloud.n(); ++i)

@@ -10,7 +10,7 @@ using namespace ispf;
 namespace
 {
 
-// {u, v, w, p} = A x, periodic up to its jump
+// {u, v, w, p} = A x, periodic except for its jump
 struct linearField
 {
     Eigen::Matrix<scalar, 4, 3> A;

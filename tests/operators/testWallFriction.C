@@ -21,8 +21,8 @@ enum class wallOf
     images
 };
 
-// Fluid in no order before a wall that follows the velocity u = x, in which every shear and stretch is.  radius: of the
-// circle that the wall is round the fluid, 0 for the plane y = 0
+// Disordered fluid before a wall that moves with the velocity u = x, which contains every shear and stretch.  radius: of the
+// circular wall around the fluid, 0 for the plane y = 0
 struct wallScene
 {
     particleCloud cloud;
@@ -54,8 +54,8 @@ struct wallScene
         B.build(cloud, list);
     }
 
-    // Largest |n.laplacian u| dx of the row next to the wall, away from a plane's ends.  All pairs weigh alike here.
-    // Viscosity weighs them by the laplacianScale of both particles, which spoils what is exact
+    // Largest |n.laplacian u| dx of the row next to the wall, away from the ends of a plane.  Here all pairs have equal
+    // weight.  Viscosity weights them by the laplacianScale of both particles, which is not exact
     scalar force() const
     {
         const List<vec4> u = likeTheWall();
@@ -67,7 +67,7 @@ struct wallScene
         return worstOf(lap);
     }
 
-    // The same of the pairs of viscosity
+    // The same for the pairs of viscosity
     scalar forceOfPairs() const
     {
         viscousPairs viscous;
@@ -109,7 +109,7 @@ private:
         return radius == 0 ? vector(0, 1, 0) : vector(-cloud.x[i].xyz().normalized());
     }
 
-    // u = x of what is mirrored becomes 2 foot - x
+    // the image of u = x is 2 foot - x
     void addImages()
     {
         Eigen::Matrix4d M = Eigen::Matrix4d::Identity();

@@ -41,7 +41,7 @@ struct corner
         list.build(cloud, *kernel);
     }
 
-    // Share of the fluid in an element of the wall at the height y
+    // Share of the fluid in a wall element at the height y
     scalar ofFluid(scalar y, bool withSolid = false)
     {
         const scalar area = cloud.nDims == 3 ? dx * dx : dx;

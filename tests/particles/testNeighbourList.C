@@ -11,7 +11,7 @@ using namespace ispf;
 namespace
 {
 
-// Solids, fluid, images and rigid particles strewn at random
+// Random solids, fluid, images and rigid particles
 particleCloud strewn(int nDims, label nSolid, label nFluid)
 {
     particleCloud cloud;

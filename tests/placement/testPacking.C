@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a packing must keep: volumes, kernel sums also across the faces between zones, distances
+// A packing must keep volumes, kernel sums (also across the faces between zones) and distances
 #include "bodies.H"
 
 #include "packingReport.H"
@@ -19,7 +19,7 @@ struct sums
     label n = 0;
 };
 
-// By brute force, everything that a particle sees counted; without those that see a solid's free end
+// Kernel sums over all particles by brute force; leaves out particles that see the free end of a solid
 sums kernelSums(const packedScene& scene, scalar freeEndsWithin = 0)
 {
     const auto kernel = smoothingKernel::New("WendlandC2", 3, scene.support / 2);
@@ -50,7 +50,7 @@ scalar closest(const packedScene& scene)
     return least;
 }
 
-// Of the solid, zone 0: radius from the axis or the centre, in layer widths from the inner face
+// Number of particles per layer of the solid, zone 0; layers by the radius from the axis or centre, from the inner face on
 List<label> particlesPerLayer(const packedScene& scene, scalar inner, scalar thickness, label n,
                               int nDims)
 {
@@ -150,7 +150,7 @@ TEST_CASE("lattice: volumes of curved bodies; what lies along the axes stays a l
         checkVolumes(tubeQuarter(inner, thickness, 8e-3, dx, false),
                      tubeVolumes(inner, thickness, 8e-3, dx), 0.005);
     }
-    // the second is 0.3 dx too high for a whole number of layers
+    // the second height is 0.3 dx more than a whole number of layers
     for (const scalar height : {6e-3, 6.15e-3})
     {
         const packedScene box(
@@ -215,7 +215,7 @@ TEST_CASE("bodies set into others: covered parts of large faces belong to no zon
                             dx, false);
     checkVolumes(tubes, tubeVolumes(5e-3, thickness, length, dx), 0.005);
 
-    // on the floor of a tank, in its middle and in its corner, as high as the tank and lower
+    // pillars on the floor of a tank, in its middle and in its corner, as high as the tank and lower
     for (const vector& foot : {vector(3e-3, 3e-3, 0), vector(0, 0, 0)})
         for (const scalar height : {8e-3, 4e-3})
         {
@@ -253,7 +253,7 @@ TEST_CASE(
 
 TEST_CASE("zones whose common face is meshed twice leave no gap between them")
 {
-    // two half cylinders of an outline turned in 60 and 64 steps: slivers along the common face
+    // two half cylinders with 60 and 64 segments: slivers along the common face
     const scalar dx = 0.5e-3, length = 4e-3;
     const packedScene s(
         {{"inside"}, {"around"}},

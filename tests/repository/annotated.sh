@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The annotated dictionaries are one case: it runs, and as a program refuses what it does not read, each
-# entry stands where it is read.  Entries in comments stand in place of others: each of these runs too
+# The annotated dictionaries form one case.  It runs; a program refuses entries that it does not read, so each
+# entry stands where it is read.  Entries in comments replace others: each of these cases runs too
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 annotated=$cases/../../etc/caseDicts/annotated
@@ -22,7 +22,7 @@ setEntry system/sphSolution coupling projection
 setEntry constant/structureProperties E 30; sed -i 's/^mu .*/mu 1e-3;/' constant/physicalProperties
 solve || grep -q "beyond the" log || fail "projection: $(tail -n 5 log)"
 
-# in place of: file, entry in a comment, entry that it replaces
+# inPlaceOf file, entry in a comment, entry that it replaces
 inPlaceOf() {
     annotatedCase
     sed -i -E "s|^( *)//($2 )|\1\2|; s|^( *)($3 )|\1//\2|" "$1"
@@ -41,14 +41,14 @@ annotatedCase
 sed -i -E "s|^ *direction .*||; s|^ *displacement .*||; s|//(velocity .*1e-3 .*)|\1|" constant/boundary
 place; solved
 
-# what constant/boundary holds in comments, in place of other entries
+# boundaryWith: entries in comments of constant/boundary replace other entries
 boundaryWith() {
     annotatedCase
     sed -i -E "$1" constant/boundary
     place
 }
 shown() { printf 's|^( *)//(%s)|\\1\\2|; ' "$@"; }
-# nothing leaves then, so the piston has to stand still
+# nothing can leave in this case, so the piston has to be at rest
 boundaryWith "$(shown 'velocity .*into the fluid' 'profile ' 'direction .*of flowRate')s|^( *)p .*||; s|amplitude 0.005|amplitude 0|"; solved
 boundaryWith "$(shown 'flowRate ')s|^( *)p .*||"
 solve && fail "a flow rate through a plane without an end is accepted"
@@ -59,7 +59,7 @@ boundaryWith "$(shown 'rotation .*itself')s|^    velocity  *\\(.*||"
 solve && fail "plane walls that turn in themselves are accepted"
 grep -q "of this velocity points out of it" log || fail "rotation: $(tail -n 5 log)"
 
-# a wrong place is told
+# an entry in a wrong place is reported
 annotatedCase; place
 echo "theta 0.5;" >> system/sphSolution
 solve && fail "theta beside monolithic is accepted"

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Every number that src declares as `constexpr scalar|int|label|double|float NAME = ` stands in doc/constants.md: a row
-# names it, its file and its value; the table of what is left out names it and its file
+# Every number that src declares as `constexpr scalar|int|label|double|float NAME = ` must be in doc/constants.md: a row
+# has its name, file and value; the table of numbers left out has name and file
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 root=$(cd "$(dirname "$0")/../.." && pwd)
 
-# declared FOLDER: "file name number" of each, several of one declaration as well
+# declared FOLDER: prints "file name number" of each, also for several in one declaration
 declared() {
     find "$1" -name '*.[HC]' | sort | while read -r file; do
         sed 's|//.*||' "$file" | tr '\n' ' ' | grep -oE 'constexpr +(scalar|int|label|double|float) +[A-Za-z_0-9]+ *=[^;]*;' |
@@ -14,8 +14,8 @@ declared() {
             sed -nE "s|^ *([A-Za-z_0-9]+) *= *(-?[0-9][0-9.]*(e[-+]?[0-9]+)?).*|${file##*/} \1 \2|p"
     done
 }
-# missing FOLDER FILE: what FOLDER declares and no row of FILE has.  A row tells one declaration of a name, so that of two in
-# a file each has its own
+# missing FOLDER FILE: prints the numbers of FOLDER without a row in FILE.  A row counts for one declaration, so that two of
+# the same name in a file need two rows
 missing() {
     awk -F' *[|] *' '
         function has(text, word,    n, parts, k) {
@@ -36,7 +36,7 @@ missing() {
 [ "$(declared "$root/src" | wc -l)" -gt 100 ] || fail "src declares no numbers"
 while read -r line; do fail "not in doc/constants.md: $line"; done < <(missing "$root/src" "$root/doc/constants.md")
 
-# it does find what is missing, another value and a name in another file, and nothing else
+# the script finds missing rows, other values and names in other files, and nothing else
 mkdir "$scratch/src"
 printf '%s\n' 'constexpr scalar told = 0.5, other =' '    -1e-3;  // [dx]' 'static constexpr int most = 3;' 'constexpr label none = n;' \
     '{ constexpr int most = 3; }' > "$scratch/src/a.C"

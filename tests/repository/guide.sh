@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# doc/guide/first-case.md does what it says: its bash blocks run, in their order, in an empty folder, and print what the text
-# block behind them shows: each line of it, but those of dots, with the same words, and numbers within 3 %.  The function
-# objects of doc/guide/functionObjects.md run in that case and in inflatedVessel, and write the columns that it shows
+# doc/guide/first-case.md is true: its bash blocks run in their order in an empty folder.  They print each line of the text
+# block after them (except lines of dots) with the same words, and numbers within 3 %.  The function
+# objects of doc/guide/functionObjects.md run in that case and in inflatedVessel, and write the columns that the page shows
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 guide=$ispfRoot/doc/guide
 
-# blocks page: writes block.<n>.sh for each bash block and block.<n>.text for the text block behind it
+# blocks page: writes block.<n>.sh for each bash block, and block.<n>.text for the text block after it
 blocks() {
     awk '/^```/ { if (on) { on = 0; close(file); next }
                   kind = substr($0, 4); on = 1; file = "/dev/null"
@@ -16,7 +16,8 @@ blocks() {
                   next }
          on { print > file }' "$1"
 }
-# printed text output: which lines of the text are not in the output.  "..." alone leaves out lines, at the end the rest of one
+# printed text output: prints lines of the text that the output lacks.  "..." alone skips lines, at the end the rest of a
+# line
 printed() {
     awk 'function near(a, b) { return (a - b)^2 <= (0.03*b)^2 + 1e-24 }
          # words of a line: numbers become #, and are kept in v
@@ -42,7 +43,7 @@ printed() {
                        have = split1(lines[l], b)
                        if (open ? index(have, want) != 1 : have != want) continue
                        found = 1
-                       # residuals and what is next to nothing are not compared
+                       # residuals and values near zero are not compared
                        for (i = 1; i <= a[0]; ++i)
                            if (!timing && a[i]^2 > 1e-10 && want !~ /residual/ && !near(b[i], a[i])) found = 0
                    }
@@ -54,7 +55,7 @@ cd "$scratch" || exit 1
 blocks "$guide/first-case.md"
 [ "$(ls block.*.sh | wc -l)" -gt 8 ] || fail "first-case.md has $(ls block.*.sh | wc -l) blocks"
 mkdir reader
-# one shell for all of them, as a reader has
+# all blocks run in one shell, as for a reader
 for b in block.*.sh; do
     echo "exec > $scratch/${b%.sh}.out"; cat "$b"
     echo "[ \$? = 0 ] || { echo '$b' >> $scratch/failed; exit 1; }"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bin/installDependencies, and `make demo` and `make test` through it: with a terminal they ask, without one they
-# install. No program but those in $scratch/bin can be found, and its apt-get only notes what it was asked for.
+# install.  Only programs in $scratch/bin can be found; the apt-get there only notes what it is asked for.
 set -uo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 script=$(command -v script) || { echo "  script is not installed (Debian's bsdutils)"; exit 77; }
@@ -42,7 +42,7 @@ for p in ar bash cat date dirname env expand grep mkdir nproc realpath rm sed sh
     ln -s "$(command -v $p)" "$scratch/bin/$p"
 done
 
-# ---- how a command is run, and what came of it ----------------------------------------------------------
+# ---- how a command is run, and its result ---------------------------------------------------------------
 # fresh: two packages are missing, and nothing has been built
 fresh() {
     rm -rf "$scratch/did" "$scratch/installed" "$scratch/piped" "$tree/build"
@@ -56,7 +56,7 @@ typing() {
     status=${PIPESTATUS[1]}
 }
 said() { grep -qE -- "$2" "$scratch/out" || fail "$1: '$2' is not said: $(cat "$scratch/out")"; }
-packages="libre2-dev doctest-dev" before=""  # what is missing in the groups asked for; what comes before apt-get
+packages="libre2-dev doctest-dev" before=""  # packages that are missing in the groups asked for; text before apt-get
 listed() { said "$1" "^Debian packages to install: $packages$"; }
 did() { # what expected: words of what was done, in this order
     grep -qxE -- "$2" <<< "$(tr '\n' ' ' < "$scratch/did")" || fail "$1: done was '$(cat "$scratch/did")', not '$2': $(cat "$scratch/out")"
@@ -68,7 +68,7 @@ installed() { # what [what else was done]
 }
 asked() { said "$1" "Install them now\? \[Y/n\]"; }
 notAsked() { grep -q "\[Y/n\]" "$scratch/out" && fail "$1: asked: $(cat "$scratch/out")"; }
-# the command that the last line names does install, from any folder
+# the command in the last line installs the packages, from any folder
 refused() { # what [status]
     [ "$status" = "${2:-1}" ] || fail "$1: status $status, not ${2:-1}"
     did "$1" ""
@@ -98,7 +98,7 @@ done
 for option in "$install -y" "env CI=true $install"; do
     fresh; typing "n\n" "$option"; listed "$option"; notAsked "$option"; installed "$option"
 done
-# the question is seen where the output goes elsewhere, and where the terminal was opened for reading only
+# the question is visible if the output goes elsewhere, and if the terminal was opened for reading only
 fresh; typing "\n" "$install 2>&1 | cat > '$scratch/piped'"; asked piped; installed piped
 grep -q "to install: libre2-dev doctest-dev$" "$scratch/piped" || fail "piped: no list: $(cat "$scratch/piped")"
 fresh; typing "n\n" "$install > '$scratch/piped' 2>&1"; asked "to a file"; did "to a file" ""; [ "$status" = 1 ] || fail "to a file: status $status"
@@ -132,7 +132,7 @@ packages="libre2-dev doctest-dev"
 for tests in "$make test" "$make -j2 test"; do
     fresh; without "$tests < /dev/null"; listed "$tests"; installed "$tests" "runTests "
     fresh; typing "\n" "$tests"; listed "$tests, Enter"; asked "$tests, Enter"; installed "$tests, Enter" "runTests "
-    # once all are there it asks no more, whoever installed them (no dpkg-query: not Debian)
+    # with all packages it does not ask, whoever installed them (no dpkg-query: not Debian)
     : > "$scratch/did"; mv "$scratch/bin/dpkg-query" "$scratch/"
     typing "" "$tests"; notAsked "$tests again"; did "$tests again" "runTests "
     mv "$scratch/dpkg-query" "$scratch/bin/"

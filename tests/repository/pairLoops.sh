@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# src/particles/forPairs.H has the one loop over neighbours.  At most 12 others stand in src, each with its reason in a
-# comment, "by hand: ...", on its line or on the one before
+# src/particles/forPairs.H has the one loop over neighbours.  At most 12 others may be in src, each with its reason in a
+# comment, "by hand: ...", on its line or on the line before
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 root=$(cd "$(dirname "$0")/../.." && pwd)
 most=12
 
-# loops FOLDER: "file:line reason" of each that begins at the start, own, mid or wall of a row, or that reads what a list has
-# in index at its variable, within three lines.  linearSolvers has rows of matrices
+# loops FOLDER: prints "file:line reason" of each loop that begins at the start, own, mid or wall of a row, or that reads the
+# index of a list at its variable within three lines.  Rows of matrices in linearSolvers do not count
 loops() {
     find "$1" -name '*.[HC]' ! -name forPairs.H ! -path '*/linearSolvers/*' | sort | while read -r file; do
         awk -v file="${file##*/}" '
@@ -30,14 +30,14 @@ loops() {
             }' "$file"
     done
 }
-# wrong FOLDER: what is against the rule there
+# wrong FOLDER: prints what breaks the rule there
 wrong() {
     loops "$1" | awk -v most=$most 'NF == 1 { print "no reason at", $1 } END { if (NR > most) print NR, "loops by hand, more than", most }'
 }
 
 while read -r line; do fail "$line"; done < <(wrong "$root/src")
 
-# it does find them, however they are written, and nothing else
+# the script finds such loops in every form, and nothing else
 mkdir -p "$scratch/src/linearSolvers"
 printf '%s\n' 'for (auto k = list->mid[i]; k < end; ++k)' 'for (std::int64_t k = from; k < to; ++k)' '{' '    f(list.index[k]);' \
     'for (label k = start[i]; k < end[i]; ++k)  // by hand: sorts' '// by hand: too' 'for (auto p = own[i]; p < mid[i]; ++p) f(p);' \

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The front of error against CPU time: bin/tools/trade.py on runs whose numbers are made up
+# The front of error against CPU time: bin/tools/trade.py on runs with invented numbers
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 run() { # name seconds error...

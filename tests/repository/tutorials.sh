@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Every tutorial runs, shortened, and is told when it does not; tests/repository/validation.sh runs them in full
+# Every tutorial runs in a short form, and a failure is reported; tests/repository/validation.sh runs them in full
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 runs=$cases/../../bin/ispfRunTutorials
-# every tutorial, shortened; and one that fails is told so, for each reason
+# every tutorial runs in a short form; a tutorial that fails is reported, for each reason
 "$runs" -folder "$scratch/short" || fail "shortened tutorials"
 broken() { # what is said, command that breaks a copy of the tree
     rm -rf "$scratch/tree"; mkdir -p "$scratch/tree/tutorials/ispfFsiFoam"
@@ -23,7 +23,7 @@ broken "comparison/hydrostaticBox.png was not made" "sed -i '/^runComparison/s/.
 broken "[Ww]arning" "sed -i 's/kPa/&/; \$a plot \"nothing\"' validation/plot.gp"
 broken "Allclean does not leave" "echo > Allclean"
 broken "no tutorial|Allrun failed" "rm system/particleDict"
-# steps with units, of awkward lengths, and an end between two of them: as many as asked for, and no failure
+# steps with units, of awkward lengths, and an end between two of them: the right number of steps and no failure
 variant() { # what is said of the run (pattern), number of steps, lines of controlDict, options...
     local said=$1 steps=$2 log
     rm -rf "$scratch/tree" "$scratch/run"; mkdir -p "$scratch/tree/tutorials/ispfFsiFoam"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The quick tier: tutorials against their references; and that what is wrong is told as FAIL
+# The quick tier: tutorials compared with their references; errors are reported as FAIL
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 validate=$cases/../../bin/ispfValidate
@@ -13,7 +13,7 @@ for tutorial in $("$validate" -tier quick -list | cut -d ' ' -f 1 | sort -u); do
     grep -q "^$(basename "$tutorial")/.*,pass,quick," "$scratch/quick/summary.csv" || fail "$tutorial is judged nowhere"
 done
 
-# the report ends with one page that has a line of every tutorial with errors to expect
+# the last page of the report has a line for every tutorial with expected errors
 sed -n '/^# What to expect/,$p' "$scratch/quick/report.md" > "$scratch/page"
 for family in couette hydrostaticBox stirredRing womersley; do
     grep -qE "^\| $family \| .* \| \*[^ ]+\* [0-9.e-]+ \([0-9]+, [0-9.]+ s\)" "$scratch/page" || fail "not on the last page: $family"
@@ -36,7 +36,7 @@ broken() { # status pattern-of-what-is-said command that changes the tutorial [o
 broken 0 "5 quantities of 1 runs, 0 FAIL" ""
 broken 1 "largest speed.*FAIL" "sed -i 's/1e-6 if/-1 if/' $hydrostatics"
 broken 1 "largest error of p.*FAIL" "sed -i 's/rho \* dot(row/1.01 * &/' $hydrostatics"
-# whatever the end; what was written before the first step is not judged
+# the end time does not matter; values from before the first step are not judged
 short="rest quick system/controlDict endTime 0.05"
 broken 0 "5 quantities of 1 runs, 0 FAIL" "echo '$short' > validation/variants"
 for none in depth extremes; do
@@ -58,32 +58,32 @@ broken 1 "unknown option '-tiers'; valid" "" -tiers
 broken 1 "rest: FAIL, .*compare, line [0-9]*: OSError" "sed -i 's/^sys.exit(\(.*\))/\1; raise OSError/' validation/compare"
 broken 1 "rest: FAIL, it is running already" "mkdir -p ../../../validation/.state/ispfFsiFoam/hydrostaticBox/rest; flock ../../../validation/.state/ispfFsiFoam/hydrostaticBox/rest/lock sleep 60 & sleep 0.5" -jobs 2
 kill %1
-# what runs in the tutorial's own folder have left does not count
+# results of runs in the tutorial's own folder do not count
 broken 0 "5 quantities of 1 runs, 0 FAIL" "printf 'deltaT = 1\nTime = 0.05\nEnd\n' > log.ispfFsiFoam; mkdir 0.05 comparison" hydrostaticBox hydrostaticBox
 broken 0 "5 quantities of 1 runs, 0 FAIL" "printf %s \"\$(cat validation/variants)\" > validation/variants"
 broken 1 "study .*FAIL" "printf '#!/bin/sh\nexit 1\n' > validation/study; chmod +x validation/study"
 
-# what has ended is not run again; what was interrupted goes on, and the steps of both parts are counted
+# a finished run is not repeated; an interrupted run continues, and the steps of both parts are counted
 broken 0 "0 FAIL" "echo 'rest quick system/controlDict endTime 2; system/controlDict writeInterval 1' > validation/variants"
 validate=$scratch/tree/bin/ispfValidate results=$scratch/tree/validation
 "$validate" -tier quick > "$scratch/out" 2>&1
 grep -q "has ended before" "$scratch/out" || fail "run again: $(cat "$scratch/out")"
 cp "$results/summary.csv" "$scratch/once.csv"
-# nor if its judgement is another one: that alone is made anew
+# a finished run with a changed judgement is compared again, but not run again
 solved=$(stat -c %y "$results/ispfFsiFoam/hydrostaticBox/rest/log.ispfFsiFoam")
 sed -i 's/1e-6 if/1e-7 if/' $hydrostatics
 "$validate" -tier quick > "$scratch/out" 2>&1
 grep -q "is compared again" "$scratch/out" && grep -q "over sqrt(g H).* of    1e-07  pass" "$scratch/out" || fail "compared again: $(cat "$scratch/out")"
 [ "$(stat -c %y "$results/ispfFsiFoam/hydrostaticBox/rest/log.ispfFsiFoam")" = "$solved" ] || fail "run again, not only compared"
 sed -i 's/1e-7 if/1e-6 if/' $hydrostatics; "$validate" -tier quick > /dev/null 2>&1
-# nor does it count as judged if its comparison is no longer there
+# a run whose comparison has been removed does not count as judged
 for gone in comparison/summary.csv ""; do
     rm -r "$results/ispfFsiFoam/hydrostaticBox/rest/$gone"
     "$validate" -tier quick > "$scratch/out" 2>&1 && grep -q "5 quantities of 1 runs, 0 FAIL" "$scratch/out" ||
         fail "without rest/$gone: $(cat "$scratch/out")"
     diff <(cut -d, -f 1-11 "$scratch/once.csv") <(cut -d, -f 1-11 "$results/summary.csv") || fail "without rest/$gone the summary differs"
 done
-# nor does what the tutorial had, and has no more, judge anything
+# files that the tutorial had before and does not have any more judge nothing
 compare=validation/compare; echo 1 > validation/table.csv; sed -i 's/^sys.exit/open("validation\/table.csv"); &/' $compare
 "$validate" -tier quick > "$scratch/out" 2>&1 || fail "with a table: $(cat "$scratch/out")"
 rm validation/table.csv
@@ -117,12 +117,12 @@ interrupted "$results" ispfFsiFoam/hydrostaticBox/rest/log.ispfFsiFoam 0.5
 "$validate" -tier quick > "$scratch/out" 2>&1 || fail "goes on: $(cat "$scratch/out")"
 grep -q "rest: goes on" "$scratch/out" || fail "begins anew: $(cat "$scratch/out")"
 diff <(cut -d, -f 1-11 "$scratch/once.csv") <(cut -d, -f 1-11 "$results/summary.csv") || fail "interrupted, the summary differs"
-# in a folder that the tutorial itself has made, too
+# also in a folder that the tutorial itself has made
 validate=$ispfRoot/bin/ispfValidate
 interrupted "$scratch/own" ispfFsiFoam/invariance/allAtOnce/plain/log.ispfFsiFoam 0.1 invariance
 "$validate" -tier quick -folder "$scratch/own" invariance > "$scratch/out" 2>&1 || fail "goes on in its own folder: $(cat "$scratch/out")"
 grep -q "allAtOnce: goes on" "$scratch/out" || fail "begins anew in its own folder: $(cat "$scratch/out")"
-# tables of published values say where they are broken
+# tables of published values report the place of an error
 values() { # text, what is said
     printf '%b' "$1" > "$scratch/table.csv"
     (cd "$scratch" && PYTHONPATH=$ispfRoot/bin/tools python3 -c \

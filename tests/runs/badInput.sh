@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Broken input, one case a line: each program refuses it with a message that names the place, ends with status
+# Broken input, one case per line: each program refuses it with a message that names the place, ends with status
 # 1, and leaves every file as it was
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
@@ -23,7 +23,7 @@ refused() {
     tr '\n' ' ' < "$scratch/log" | LC_ALL=C grep -qaE -- "$1" || fail "$2: ${*:3}: '$1' is not said: $(tail -n 8 "$scratch/log")"
     diff <(echo "$before") <(sums) | grep "^<" && fail "$2: ${*:3}: files have changed"
 }
-accepted() { # how the case is altered, program
+accepted() { # change of the case, program
     rm -rf "$scratch/broken"; cp -r "$scratch/sound" "$scratch/broken"; cd "$scratch/broken" || exit 1
     eval "$1"
     "${@:2}" > "$scratch/log" 2>&1 || fail "$1: ${*:2} refuses: $(tail -n 8 "$scratch/log")"
@@ -114,11 +114,11 @@ done
 refused "checksum|damaged" "dd if=/dev/zero of=0.02/particles.hdf bs=1 count=20000 seek=60000 conv=notrunc 2> /dev/null" ispfFsiFoam
 
 # ---- disks --------------------------------------------------------------------------------------------------------
-# no file grows beyond 40 kB: as on a full disk, write() fails
+# no file can grow beyond 40 kB: write() then fails as on a full disk
 full="trap '' XFSZ; ulimit -f 40; exec"
 refused "Cannot write.*0.03/particles.hdf" "true" bash -c "$full ispfFsiFoam"
 refused "Cannot write.*particles.hdf" "rm -r 0 0.* constant/*.hdf *.series" bash -c "$full generateParticles"
-# of a case made anew all files are those of before, or all are new
+# when a case is made anew, either all files are the old ones or all are new
 finer="sed -i 's/^dx .*/dx 0.005;/' system/particleDict"
 refused "Cannot write.*particles.hdf" "$finer" bash -c "$full generateParticles"
 find . -name '*.tmp' | grep . && fail "temporary files are left by generateParticles"
@@ -137,14 +137,14 @@ for signal in TERM INT; do
     find . -name '*.tmp' | grep . && fail "temporary files are left by generateParticles, SIG$signal"
 done
 refused "0.03" "touch 0.03" ispfFsiFoam
-# whom a file is not for
+# a file without permission for the user
 if [ "$(id -u)" = 0 ] && runuser -u nobody -- test -x "$(command -v checkParticles)"; then
     chmod 755 "$scratch"
     refused "Cannot read '.*0.02/particles.hdf': Permission denied" "chmod 000 0.02/particles.hdf" \
         runuser -u nobody -- "$(command -v checkParticles)"
 fi
-# a log that cannot be written stops no run, but it is told at the end
-logless() { # how the log is lost, what is said of it
+# a log that cannot be written stops no run; the program reports it at the end
+logless() { # way in which the log is lost, expected message
     rm -rf "$scratch/broken"; cp -r "$scratch/sound" "$scratch/broken"; cd "$scratch/broken" || exit 1
     bash -c "$1" 2> "$scratch/log" && fail "$1: the log is lost without a word"
     grep -q "could not be written to stdout: $2" "$scratch/log" || fail "$1: $(cat "$scratch/log")"

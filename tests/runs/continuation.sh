@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The same result, bit for bit: continued after a stop or after kill -9, run twice, with one thread and two
+# The result is the same, bit for bit: continued after a stop or after kill -9, run twice, with one thread and two
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 
-# 13 steps and 13 more, of a run that was never interrupted and of one that starts from the 13th
+# 13 steps and 13 more, in a run that was never interrupted and in one that starts from the 13th step
 continued() { # template name
     newCase "$1" "$2"
     eval "${3:-}"
@@ -36,7 +36,7 @@ continued membrane wallMonolithic
 continued membrane wallSecondOrder 'echo "ddtScheme DLN;" >> system/sphSchemes'
 continued membrane wallProjection "$explicitWall; $adjusted"
 
-# Killed while it writes every step; what is left of a folder does not matter
+# The run is killed while it writes every step; what remains of a folder does not matter
 newCase piston killed
 setEntry system/controlDict writeInterval 1; setEntry system/controlDict endTime 0.5
 setEntry system/controlDict deltaT 0.005
@@ -52,7 +52,7 @@ solved
 same 0.5 ../notKilled/0.5 "continued after kill -9"
 seriesComplete "killed"
 
-# Steps too small for the digits of the times: each start goes on with names that tell them apart, in order
+# Steps too small for the digits of the times: each start continues with names that distinguish the times, in order
 newCase piston fineSteps; place
 solved
 for more in "timePrecision 2; deltaT 2e-5; writeInterval 1; endTime 0.26004;" "endTime 0.26008;" "endTime 0.2601;"; do
@@ -83,8 +83,8 @@ for template in piston membrane; do
     same threads1 threads2 "$template: one thread and two"
     same threads2 0.004 "$template: run twice"
 done
-# Functions of time are asked for the run's own times alone: tables that end with it are enough, in steps that its end
-# cuts short, and from a start that is not 0
+# The run asks functions of time only for its own times: a table that ends with the run is enough, also if the end shortens
+# the last steps or if the start is not 0
 newCase piston range
 place
 mv 0 5
@@ -104,7 +104,7 @@ for coupling in monolithic projection; do
     sed -i 's/outOfBounds error/outOfBounds warn/' constant/boundary constant/g; rm -r 5.0*
     solved
     grep -q "outside the table" log && fail "$PWD: asked for times that are not the run's: $(grep -B 3 outside log)"
-    rm -r 5.04; echo "deltaT 0.03;" >> system/controlDict  # longer than all that was run
+    rm -r 5.04; echo "deltaT 0.03;" >> system/controlDict  # longer than the whole run so far
     solved
     grep -q "outside the table" log && fail "$PWD: continued, asked for times before the run: $(grep -B 3 outside log)"
     sed -i 's/outOfBounds warn/outOfBounds error/' constant/boundary constant/g

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Logs of both couplings as foamLog and pyFoam read them: each query finds one number a step, each
-# "Solving for" line has their form, and no other line is taken for a time
+# Logs of both couplings, read as foamLog and pyFoam do: each query finds one number per step, each
+# "Solving for" line has their form, and no other line counts as a time
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 steps=4
@@ -11,7 +11,7 @@ extract() {
     awk -v sel="$3" "/^[ \\t]*Time = /"' { ++step }
         /'"$2"'/ { rest = substr($0, index($0, sel) + length(sel)); split(rest, v, " "); gsub(/[,:]/, "", v[1]); print step + 0, v[1] }' log
 }
-check() { # what the run is called
+check() { # name of the run
     local name regex text values residual='[-+0-9.e]+'
     while IFS=/ read -r name regex text; do
         values=$(extract "$name" "$regex" "$text")
@@ -28,7 +28,7 @@ check() { # what the run is called
     # times and steps are those of the run
     [ "$(extract Time '^Time = ' 'Time = ' | awk '{ printf "%s ", $2 }')" = "0.01 0.02 0.03 0.04 " ] || fail "$1: times"
     [ "$(tail -n 1 log)" = End ] || fail "$1: End"
-    # what each stage and function object has taken, all of it together
+    # the times of all stages and function objects add up to the run
     sed -n '/^Stages of the run/,/^$/p' log > table
     for stage in start neighbours "rest of the steps" "function object speed"; do
         grep -qE "^    $stage +[0-9.]+ s +[0-9.]+ %$" table || fail "$1: no time of $stage: $(cat table)"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The case's scripts: plunger curves, options, joining of restarted histories
+# The scripts of the case: plunger curves, options, joining of restarted histories
 set -uo pipefail
 [ -z "${ISPF_BIN:-}" ] || ISPF_BIN=$(cd "$ISPF_BIN" && pwd)
 cd "$(dirname "$0")/../../tutorials/ispfFsiFoam/hemisphereCappedCylinder"
@@ -8,10 +8,10 @@ failures=0
 fail() { echo "  FAILED: $1"; failures=$((failures+1)); }
 scratch=$(mktemp -d); trap 'rm -rf "$scratch"' EXIT
 
-# The curves are what the script makes of the stated numbers
+# The curves are those that the script makes from the stated numbers
 cp -r constant/plunger "$scratch/"
 "$scratch/plunger/makeCurves" && diff -r constant/plunger "$scratch/plunger" || fail "plunger curves"
-# and they are the deduced ones: stroke 9.36527 mm at 2.28951 mm/s, rest 1.1475 s, period 10.476 s
+# and they have the deduced values: stroke 9.36527 mm at 2.28951 mm/s, rest 1.1475 s, period 10.476 s
 awk -F, '/^[0-9]/ { t[++n] = $1; x[n] = $2 }
     function off(a, b) { return (a - b)^2 > 1e-10*b^2 }
     END { exit off(x[2], 9.36527) || off(x[2]/t[2], 2.28951) || off(t[3] - t[2], 1.147486) ||
@@ -27,7 +27,7 @@ for options in "-dx 0.6" "-variant C" "-bore 9" "-variant A -bore 10" "-kernel g
     grep -q "valid\|is not a" "$scratch/out" || fail "Allrun $options: no reason"
 done
 
-# A run that was stopped goes on, one that has reached its end does not: a solver that only says that it was asked
+# A stopped run continues, a finished run does not: the solver here only notes that it was called
 root=$(cd ../../.. && pwd) case=$scratch/case bin=$scratch/bin
 cp -r . "$case" && mkdir "$bin" && ln -s "$(cd "${ISPF_BIN:-$root/build/${OPT:-Release}/bin}" && pwd)"/* "$bin"/ && rm "$bin/ispfFsiFoam"
 printf '#!/bin/sh\ntouch asked; exit 1\n' > "$bin/ispfFsiFoam" && chmod +x "$bin/ispfFsiFoam"
@@ -51,7 +51,7 @@ mkdir -p "$run/0" && touch "$run/0/particles.hdf" && echo "Particles OK" > "$run
 again -paper && fail "-paper, whose solver has failed, ends with 0"
 grep -q "The run stopped before its end" "$scratch/out" || fail "-paper: $(cat "$scratch/out")"
 
-# Entries of the dictionaries count where no option is given; the step goes with the spacing
+# Entries of the dictionaries hold where no option is given; the step follows from the spacing
 entries() { # folder of the run: E [Pa], dx [m], deltaT, endTime [s]
     local file
     for file in constant/structureProperties:E system/particleDict:dx system/controlDict:deltaT system/controlDict:endTime; do
@@ -72,19 +72,19 @@ prepared dx0.8-B-trapezoid "2000000 0.0008 0.008 3"
 prepared dx0.4-B-trapezoid-E1e6 "1000000 0.0004 0.004 3" -dx 0.4 -E 1e6
 prepared dx0.8-B-literal-2cycles-deltaT1e-3 "2000000 0.0008 0.001 20.952" -curve literal -cycles 2 -deltaT 1e-3
 
-# Restarts: what a later start repeats is replaced
+# Restarts: rows that a later start repeats are replaced
 printf '# x\n# Time\tdiameter\tdDoverD\n0\t20\t0\n1\t21\t5\n2\t99\t99\n' > "$scratch/0.dat"
 printf '# Time\tdDoverD\tdiameter\n2\t10\t22\n3\t15\t23\n' > "$scratch/2.dat"
 joined=$(awk -v want="diameter|dDoverD" -f validation/awk/series.awk "$scratch/0.dat" "$scratch/2.dat" | tr '\n' ';')
 [ "$joined" = "0 20 0;1 21 5;2 22 10;3 23 15;" ] || fail "joined histories: $joined"
 
-# The pace of a log that begins at 5 s, starts again at 6 s and breaks off in its last step
+# Pace from a log that begins at 5 s, starts again at 6 s and breaks off in its last step
 step() { printf 'deltaT = 0.5\nTime = %s\n' "$1"; [ $# = 1 ] || printf 'ExecutionTime = %s s  ClockTime = %s s\n' "$2" "$3"; }
 { step 5.5 2 4; step 6 4 8; step 6.5 1 2; step 7; } > "$scratch/log"
 timing=$(awk -v period=5400 -f validation/awk/timing.awk "$scratch/log" | tr '\n' ';')
 [ "$timing" = "reached 6.5;steps 3;timePerStep 3.33333;timePerPeriod 10;" ] || fail "timing: $timing"
 
-# Map of a known flow at rest in the mean: its ring, peak and profile
+# Map of a known flow whose mean is at rest: its ring, peak and profile
 awk 'BEGIN { print "# x y U_x U_y U_n"
     for (j = -8; j <= 40; ++j) for (i = -60; i <= 60; ++i) {
         x = i*0.25; y = j*0.25; r = x < 0 ? -x : x; s = r/10; z = (y - 7)/4
@@ -98,7 +98,7 @@ awk '{ q[$1] = $2 } function near(name, v, d) { if ((q[name] - v)^2 > d*d) { pri
           near("TDC.lineTop", 2, 1e-4); near("TDC.linePeakOverMean", 1/(1 - 2/12), 0.02); exit bad }' \
     "$scratch/map" || fail "quantities of a map"
 
-# Histories of two cycles with known peaks: a second cycle 1 % lower, 2 % of the stroke lost at the top
+# Histories of two cycles with known peaks: in the second cycle 1 % lower, with 2 % of the stroke lost at the top
 for file in diameter volume pressure; do
     awk -v file=$file 'BEGIN { for (i = 0; i <= 200; ++i) {
         t = 0.1*i; phase = t - 10*int(t/10 + 1e-9); s = phase < 4 ? phase/4 : phase < 8 ? 2 - phase/4 : 0
@@ -116,7 +116,7 @@ awk '{ q[$1] = $2 } function near(name, v) { if ((q[name] - v)^2 > 1e-8) { print
           near("peak.defect", 1.5); near("peak.fluidFeedback", 0.2); near("wallDefect", -0.02); near("pressurePeak", 0.07); near("syringeDiameter", 16); exit bad }' \
     "$scratch/history" || fail "quantities of the histories"
 
-# Three cycles, the third as the others or half as large again, or one value that is no number: what judge says of them
+# Three cycles; the third is equal, or half as large again, or has one value that is no number: prints the verdict of judge
 three() { # factor of the third [value in place of 15 s] : the judged line
     mkdir -p "$scratch/three/comparison"
     awk -v factor="$1" -v at15="${2:-}" 'BEGIN { for (i = 0; i <= 300; ++i) {
@@ -135,7 +135,7 @@ awk -v period=10 -v top=4 -f validation/awk/history.awk "$scratch/two/diameter.d
 awk -v period=10 -v top=4 -v cycles=3 -f validation/awk/history.awk "$scratch/two/diameter.dat" | grep -q cycleDifference &&
     fail "two cycles of three are judged"
 
-# Findings are judged at one instant, though another would do, and by what is left without control
+# Findings are judged at one instant, even if another would pass, and by the value without control
 cat > "$scratch/summary.csv" <<END
 deadCentreInstant,+0.57
 TDC+0.20.peak,1.5

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# A pressure drives fluid through pipes to and fro, ten times, through faces flat, oblique and curved: with densityFeedback each
-# keeps its number of particles within 0.5 %, narrow pipes and curved faces within 1 %, as the mean of the last period; without, it
-# settles, within 2.5 %.  And a flow rate is given.  Prints what it is
+# A pressure drives fluid through pipes to and fro, ten times, through flat, oblique and curved faces.  With densityFeedback
+# the mean number of particles of the last period stays within 0.5 %, in narrow pipes and at curved faces within 1 %.
+# Without it the number settles within 2.5 %.  Also tests a given flow rate.  Prints the numbers
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 cd "$scratch" || exit 1
@@ -12,9 +12,9 @@ free="coupling monolithic;"
 echo "$held" > system/sphSolution
 : > system/sphSchemes
 
-# oscillate name depth period amplitude [most [periods]]: depth is that beyond the faces over dx, for awk.  After five periods
-# the mean of the last may differ from the start by `most` percent.  After more, the mean of the last five may, and by 0.5
-# percent from that of the five before
+# oscillate name depth period amplitude [most [periods]]: depth beyond the faces over dx, for awk.  After five periods the
+# mean of the last may differ from the start by `most` percent.  After more periods this holds for the mean of the last five,
+# which may also differ by 0.5 percent from that of the five before
 oscillate() {
     local name=$1 depth=$2 period=$3 amplitude=$4 most=${5:-0.5} periods=${6:-5} t
     rm -rf 0 0.* [1-9]* postProcessing
@@ -72,7 +72,7 @@ Translate { 0, 0, 18 } { Volume{2}; } BooleanDifference { Volume{1}; Delete; } {
 lid "-7e-3 -7e-3 14e-3" "7e-3 7e-3 22e-3"
 oscillate "oblique" "x*0.5 + (z - 18)*0.8660254" 0.5 5
 
-# a quarter, the face bulges outwards
+# a quarter; the face bulges outwards
 echo 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 28, 8};
 Sphere(2) = {0, 0, 0, 24}; BooleanIntersection { Volume{1}; Delete; } { Volume{2}; Delete; }' > constant/pipe.geo
 lid "-9e-3 -9e-3 22e-3" "9e-3 9e-3 25e-3"
@@ -82,9 +82,9 @@ oscillate "curved" "sqrt(x*x + y*y + z*z) - 24" 0.4 20 1
 echo "$free" > system/sphSolution
 oscillate "curved, without densityFeedback" "sqrt(x*x + y*y + z*z) - 24" 0.4 20 2.5 20
 
-# a piston that moves along an open face by five spacings, to and fro: what it has passed is not filled behind it, which
-# would be ten particles a stroke.  The number that there is room for: 440 less what the piston covers; mean over the second
-# stroke of runs whose steps differ
+# a piston moves along an open face by five spacings, to and fro: the room behind it must not be filled, which would add
+# ten particles per stroke.  There is room for 440 particles less what the piston covers; mean over the second
+# stroke of runs with different steps
 rm -rf constant/triSurface
 echo "rho 1000; mu 5;" > constant/physicalProperties
 echo "dx 0.01; nDims 2; zones { water { phase fluid; shape box; min (0 0 0); max (0.2 0.2 0); } }" > system/particleDict

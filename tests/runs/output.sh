@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What a run leaves on disk: both formats, purged times, tables of function objects during the run and afterwards;
+# Files that a run writes: both formats, purged times, tables of function objects during the run and afterwards;
 # damaged states, a full disk and folders that cannot be made
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
@@ -54,7 +54,7 @@ mv postProcessing written
 ispfPostProcess > log 2>&1 || fail "ispfPostProcess: $(tail -n 5 log)"
 [ "$(ls postProcessing)" = "$(ls written | grep -vx -e volumeLedger -e energyLedger)" ] || fail "other functions: $(ls postProcessing)"
 for file in $(cd postProcessing && find . -type f); do
-    # the rows of the written times; texts without times are equal as they are
+    # compares the rows of the written times; texts without times must be equal
     awk -v times=" 0 0.1 0.2 0.3 " -v table="$([[ $file == *.dat && $file != */line.dat && $file != ./map/* ]] || [[ $file == ./at/* ]]; echo $?)" \
         '/^#/ || table != 0 || index(times, " " $1 " ")' "written/$file" | cmp -s - "postProcessing/$file" ||
         fail "$file: $(awk 'index(" 0 0.1 0.2 0.3 ", " " $1 " ")' "written/$file" | diff - "postProcessing/$file" | head -n 4)"
@@ -74,7 +74,7 @@ denied() { ispfPostProcess "${@:2}" > log 2>&1 && fail "accepted: ${*:2}"; says 
 denied "Did you mean 'most'" -func mots
 denied "nearest time is 0.[12]" -time 0.15
 denied "is not a list of times" -time x
-mv 0.3 0.30001  # a name of few digits; the state's time is chosen as well
+mv 0.3 0.30001  # a name of few digits; the time in the state selects it too
 ispfPostProcess -func extremes -time 0.3 > log 2>&1 || fail "-time of a state: $(tail -n 3 log)"
 mv 0.30001 0.3
 denied "is not a list of times" -time ""
@@ -108,7 +108,7 @@ echo "functions { e { type energy; } } endTime 0.1;" >> $control
 place; solved
 awk '!/^#/ { if (!n++) { e0 = $2; bad = ($2/0.25 - 1)^2 > 1e-8 || ($5/(16*3.14159265^2*0.01*0.25) - 1)^2 > 1e-4 } last = ($2 + $7)/e0 }
     END { exit bad || n != 51 || (last - 1)^2 > 1e-4 }' postProcessing/e/0/energy.dat || fail "Taylor-Green: $(sed -n '3p;$p' postProcessing/e/0/energy.dat)"
-# a body force that grows, afterwards: that of each time
+# a growing body force, afterwards: its value at each time
 rm -rf 0.* postProcessing
 echo "dimensions [0 1 -2 0 0 0 0]; value table ((0 (0 0 0)) (0.1 (0 -1 0)));" > constant/g
 echo "writeControl runTime; writeInterval 0.05;" >> $control
@@ -140,7 +140,7 @@ for walls in particles mirror; do
     sed -i 's/velocity (1 0 0);//; s/separation (0.4 0 0);/& pressureDrop 1000;/' constant/boundary
     sed -i 's/U ("y" 0 0)/U ("0.5*1000\/0.4\/1000*y*(1-y)" 0 0)/' system/particleDict
     place; solved
-    # both walls together hold what the drop pushes
+    # both walls together carry the force of the drop
     tr -d '()' < postProcessing/f/0/force.dat | awk '$1 > 0.25 { sum += $8; ++n } END { f = sum/n/1000; exit !(f > 0.98 && f < 1.02) }' ||
         fail "a drop between $walls: $(tail -n 1 postProcessing/f/0/force.dat)"
 done
@@ -195,14 +195,14 @@ ramp=$(awk 'BEGIN { for (i = 0; i <= 50; ++i) { t = i*0.0025; printf "(%.6g %.8g
 sed -i "s/displacement { .* } }/displacement table ($ramp); }/" constant/boundary
 echo "functions { e { type energy; } f { type forces; patches (piston); } } endTime 0.125; deltaT 0.0025; writeInterval 50;" >> $control
 place; solved
-# The power of that state is the load's over the step that led there: 0.5 t^2 goes at t - dt/2
+# The power in that state belongs to the load over the last step: 0.5 t^2 moves at t - dt/2
 paste <(tail -n 1 postProcessing/e/0/energy.dat) <(tail -n 1 postProcessing/f/0/force.dat | tr -d '()') |
     awk '{ ratio = -$6/$23/0.12375; exit !(ratio > 0.9999 && ratio < 1.0001) }' ||
     fail "power of the piston: $(tail -qn 1 postProcessing/e/0/energy.dat postProcessing/f/0/force.dat)"
 awk '!/^#/ { all = $2 + $3 + $7; work = $8; share = $3/all } END { exit !(share > 0.05 && (all/work - 1)^2 < 0.0025) }' \
     postProcessing/e/0/energy.dat || fail "what the piston puts in and where it is: $(tail -n 1 postProcessing/e/0/energy.dat)"
-# Poiseuille's flow from inlet to outlet: 12 mu U L/H^2 over U H of power comes in, and goes into friction, which 16
-# particles across overrate by 6 % (32: 2 %)
+# Poiseuille's flow from inlet to outlet: the power 12 mu U L/H^2 over U H comes in and goes into friction.  With 16
+# particles across, friction is 6 % too large (32: 2 %)
 mkdir -p ../through/{system,constant}; cd ../through || exit 1
 echo 'dx 5e-3; nDims 2; zones { water { phase fluid; shape box; min (0 0 0); max (0.3 0.1 0);
     U ("6*y*(0.1 - y)" 0 0); p "2.4*(0.3 - x)"; } }
@@ -291,7 +291,7 @@ cd ../purge || exit 1
 echo "purgeWrite 0; writeFormat hdf5; endTime 0.18;" >> $control
 cp -r . ../full; cd ../full || exit 1
 find . -type f -not -name 'log*' -not -path './system/*' -exec md5sum {} + | sort > ../sums
-# as the file system says it: a limit on the size of a file
+# a limit on the size of a file fails as a full disk does
 (ulimit -f 40; trap '' XFSZ; ispfFsiFoam > /dev/null 2> log) && fail "a full disk is not noticed"
 says "Free some space or raise the limit"
 md5sum --quiet -c ../sums > log.sums 2>&1 || fail "full disk: $(cat log.sums)"

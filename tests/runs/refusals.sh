@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What a case without a structure must not have, and what is refused or warned of, through the programs
+# Fields and lines that a case without a structure must not have, and cases that the programs refuse or warn of
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 control=system/controlDict; solution=system/sphSolution

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# A state is all there is: 200 steps from one in the middle of the plunger's reversal, particles entering and leaving
+# The state is complete: 200 steps from a state in the middle of the plunger's reversal, with particles entering and leaving
 # through the open face, equal the uninterrupted run bit for bit; so do runs that signals have stopped anywhere
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
@@ -50,19 +50,19 @@ for coupling in monolithic projection; do
     done
 done
 
-# That it writes changes nothing
+# Writing changes nothing
 cp -r ../monolithic.no ../seldom && cd ../seldom || exit 1
 rm -r 0.* postProcessing; setEntry $control writeInterval 0.625
 solved
 same 0.625 ../monolithic.no/0.625 "written once and three times"
 
-# A table that begins where the run goes on: nobody asks for the step before
+# A table that begins where the run continues: the step before is not asked for
 newCase piston covered; place
 moves() { sed -i "s/displacement .*/displacement { type table; values ($1); outOfBounds error; } }/" constant/boundary; }
 moves "(0 0) (0.02 1e-4) (0.04 2e-4)"; setEntry $control endTime 0.02; setEntry $control writeInterval 2; solved
 moves "(0.02 1e-4) (0.04 2e-4)"; setEntry $control endTime 0.04; solved
 
-# Ended between two steps, then let run on: endTime changes no step
+# A run that ends between two steps, then continues: endTime changes no step
 cp -r ../monolithic.no ../prolonged && cd ../prolonged || exit 1
 rm -r 0.* postProcessing; setEntry $control endTime 0.1289
 solved
@@ -73,7 +73,7 @@ setEntry $control endTime 0.25
 solved
 same 0.25 ../monolithic.no/0.25 "to 0.1289, then to 0.25, and to 0.625"
 
-# Fields that nobody here knows stay with their particles; newcomers take them from the nearest
+# Unknown fields stay with their particles; new particles take them from the nearest
 cp -r ../monolithic.no ../unknown && cd ../unknown || exit 1
 rm -r 0.* postProcessing; echo "writeFormat ascii;" >> $control; setEntry $control endTime 0.125
 solved
@@ -93,7 +93,7 @@ paste <(numbers 0.625/id) <(numbers 0.625/tag) <(numbers 0.625/seventh) <(number
     END { if (wrong || !old || !new) print "of " old " old and " new " new particles " wrong " have lost it" }' > lost
 [ -s lost ] && fail "unknown fields: $(cat lost)"
 
-# A vector field that somebody else has put in stays one, and gets no companion
+# A vector field of another program stays a vector field and gets no companion
 newCase membrane foreign
 setEntry $control deltaT 0.0025; setEntry $control endTime 0.005
 setEntry $control writeControl timeStep; setEntry $control writeInterval 2
@@ -107,10 +107,10 @@ echo 'endTime 0.01;' >> $control; solved
 echo 'endTime 0.015; writeFormat hdf5;' >> $control; solved
 h5dump -n 1 0.015/particles.hdf > out
 grep -q "PointData/flow$" out && ! grep -q "PointData/flow:w" out || fail "a vector of others, hdf5: $(grep PointData out)"
-# but its fourth component is kept in what is ours
+# the fourth component of our own fields is kept
 grep -q "PointData/Up_0:w" out || fail "the pressure of the step before: $(grep PointData out)"
 
-# Stopped by signals at any moment, most of them within a write; the last of each run is sound and goes on alike
+# Signals stop runs at any moment, mostly within a write; the last state of each is sound and continues in the same way
 cp -r ../seldom ../signals && cd ../signals || exit 1
 rm -r 0.* postProcessing; setEntry $control writeControl timeStep; setEntry $control writeInterval 1
 echo 'purgeWrite 2;' >> $control

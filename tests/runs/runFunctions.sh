@@ -17,7 +17,7 @@ printf '#!/bin/sh\nseq 50; exit 1\n' > "$scratch/bin/muteOne"
 printf '#!/bin/sh\necho End; exit 143\n' > "$scratch/bin/stoppedOne"
 printf '#!/bin/sh\nkill -KILL $$\n' > "$scratch/bin/killedOne"
 chmod +x "$scratch"/bin/*
-run() { # a script's text; its output goes to $scratch/out
+run() { # text of a script; its output goes to $scratch/out
     printf '. %q/RunFunctions\n. %q/CleanFunctions\n%s\n' "$tools" "$tools" "$1" > "$scratch/Allrun"
     ISPF_BIN=$scratch/bin bash "$scratch/Allrun" > "$scratch/out" 2>&1
 }
@@ -33,7 +33,7 @@ run 'runApplication -a goodOne 3; runApplication -s two goodOne 4' || fail "appe
 [ "$(grep -c hello log.goodOne)" = 2 ] && grep -q "hello 4" log.goodOne.two || fail "append or suffix"
 run 'runApplication -o goodOne 5' && [ "$(grep hello log.goodOne)" = "hello 5" ] || fail "overwrite"
 
-# what has not ended runs again, with its log kept; what is not ours is left alone
+# a program that has not ended runs again, and its log is kept; logs of other programs are left alone
 sed -i 's/Time = 1/Time = 0.5/' log.goodOne
 run 'runApplication goodOne 8; echo after' || fail "a run that has not ended"
 says "goodOne goes on: log.goodOne reached 0.5 of 1 s"; says after
@@ -44,7 +44,7 @@ echo other > log.true; run 'runApplication true' && says "true has run already"
 rm -r interrupted log.true
 run 'runApplication goodOne 5' && says "has run already"
 
-# what has ended and would read other entries now is no run of theirs; a later end is one to go on to
+# a log belongs to no run if the program has ended and would now read other entries; a later endTime continues the run
 echo "rho 1;" > system/properties; run 'runApplication -o goodOne 5' || fail "overwrite"
 run 'runApplication goodOne 9; echo after' && says after || fail "nothing has changed"
 echo "rho 2;" > system/properties

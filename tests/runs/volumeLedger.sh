@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# A cavity whose surface comes as two triangles: left to itself it gains what the piston pushes in, within 1 %
-# of the stroke, and the wall keeps its volume, in twenty cycles as in half of one
+# A cavity whose surface consists of two triangles: without control it gains the volume that the piston pushes in, within 1 %
+# of the stroke, and the wall keeps its volume, in twenty cycles as in half a cycle
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 
@@ -25,7 +25,7 @@ keeps() {
 }
 solved
 keeps 26
-# with 50 steps a cycle each turns the wall's ends by 2 degrees
+# with 50 steps per cycle each step turns the wall's ends by 2 degrees
 rm -rf postProcessing 0.[1-9]*
 setEntry system/controlDict endTime 10
 setEntry system/controlDict writeInterval 500

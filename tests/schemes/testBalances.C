@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What fluid, solid, walls and open faces exchange in energy, momentum and volume adds up to rounding, for random velocities
-// and pressures on disordered particles (doc/theory, 2.6 to 5.5).  The rows are those that `monolithic` solves with.
+// Energy, momentum and volume that fluid, solid, walls and open faces exchange add up to rounding, for random velocities
+// and pressures on disordered particles (doc/theory, 2.6 to 5.5).  The rows are those of `monolithic`.
 #include "balancesWorld.H"
 
 #include <doctest/doctest.h>
@@ -25,7 +25,7 @@ const List<std::unique_ptr<world>>& worlds()
     return all;
 }
 
-// The part of sums that rounding may leave
+// Share of the sums that may be rounding
 constexpr scalar rounding = 1e-12;
 
 scalar dot(const vec4& a, const vec4& b)
@@ -33,7 +33,7 @@ scalar dot(const vec4& a, const vec4& b)
     return a.xyz().dot(b.xyz());
 }
 
-// (3.7) with the solid's load; returns what areas that do not add up leave of it, over sum V |G p|
+// Checks (3.7) with the solid's load; returns the part from areas that do not add up, over sum V |G p|
 scalar checkMomentum(const world& w)
 {
     const List<vec4> p = w.randomField(2), g = w.gradient(p);
@@ -147,7 +147,7 @@ TEST_CASE("a solid that meets a wall has the same area vectors there as away fro
             label asked = 0;
             for (label i = 0; i < cloud.nSolid(); ++i)
             {
-                // the row next to the wall, and the next one: both see the fluid beside them alone
+                // the row next to the wall and the next one: both see only the fluid beside them
                 if (x0[i][1] > dx || (plate && nDims == 3 && std::abs(x0[i][2] - 4.5 * dx) > dx))
                     continue;
                 for (label j = 0; j < cloud.nSolid(); ++j)
@@ -191,7 +191,7 @@ TEST_CASE("energy and volume of the fluid before open faces pass through the fac
     for (const auto& made : worlds())
     {
         const world& w = *made;
-        // where walls hold the fluid beside a face whose pressure is given, (4.2) has further terms
+        // where walls hold the fluid beside a face with given pressure, (4.2) has further terms
         if (!w.isDrained() || w.of.others != slips) continue;
         INFO(w.about());
         const particleCloud& cloud = w.cloud();

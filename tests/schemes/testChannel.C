@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Start-up of plane Poiseuille and Couette flow against the series of Morris, Fox & Zhu 1997, with both
+// Start-up of plane Poiseuille and Couette flow compared with the series of Morris, Fox & Zhu 1997, for both
 // kinds of wall: H = 1 mm, nu = 1e-6 m2/s, F = 1e-4 m/s2 or lid speed 1.25e-5 m/s.
 #include "capturedLog.H"
 #include "channel.H"
@@ -53,7 +53,7 @@ void advance(channel& ch, const word& viscosity, const vector& force, scalar dt,
     }
 }
 
-// Largest error, in parts of the largest exact speed
+// Largest error over the largest exact speed
 template <class Exact>
 scalar worst(const channel& ch, Exact&& exact, scalar t)
 {
@@ -74,7 +74,7 @@ TEST_CASE("Poiseuille start-up with mirror and with rigid walls, 20 particles ac
     for (const channelWall wall : {channelWall::mirror, channelWall::rigid})
     {
         channel ch(20, 10, H, wall);
-        // the profile bends most at first: 0.9 and 1.0 % of the peak of this instant, in the layer beside
+        // the profile bends most at first: 0.9 and 1.0 % of the present peak, in the layer beside
         // the wall, a quarter of that with twice the particles
         advance(ch, "explicit", {F, 0, 0}, 2e-4, 225);
         const scalar error = worst(ch, poiseuille, 0.045);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steady plane Poiseuille flow as a case runs it: triangulated walls, cyclic ends, both couplings, both
+// Steady plane Poiseuille flow in a complete case: triangulated walls, cyclic ends, both couplings, both
 // representations of a wall
 #include "caseOnDisk.H"
 #include "relative.H"
@@ -16,7 +16,7 @@ namespace
 constexpr int nAcross = 20, nAlong = 10;
 constexpr scalar H = 1e-3, dx = H / nAcross, nu = 1e-6, F = 1e-4;
 
-// Both walls, and their rigid particles from three spacings before the channel to three behind it, as
+// Both walls and their rigid particles, from three spacings before the channel to three behind it, as
 // generateParticles makes them
 void writeWalls(const word& path)
 {
@@ -39,7 +39,7 @@ void writeWalls(const word& path)
     writeParticles(rigid, path + "/constant/wallParticles.hdf");
 }
 
-// Largest error of u in parts of the peak; all particles stay in the plane
+// Largest error of u over the peak; checks that all particles stay in the plane
 scalar steadyError(const word& coupling, const word& representation)
 {
     caseOnDisk files("channelCase");

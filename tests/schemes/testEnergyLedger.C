@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The energy ledger closes to rounding, term by term, whatever bounds the fluid (doc/theory 6.4, 7.3); steps that cannot be
-// accepted are undone and halved
+// The energy ledger closes to rounding, term by term, for all boundaries of the fluid (doc/theory 6.4, 7.3).  Steps that
+// cannot be accepted are undone and halved
 #include "boxCase.H"
 #include "core/errorOf.H"
 #include "relative.H"
@@ -52,7 +52,7 @@ scalar largest(const fsiCase& c)
     return most;
 }
 
-// A block of springs in fluid, a quarter of both between symmetry planes, stretched by one per cent
+// A block of springs in fluid, stretched by one per cent; a quarter of both between symmetry planes
 struct stretchedBlock
 {
     caseOnDisk files{"energyLedgerSolid"};
@@ -111,14 +111,14 @@ TEST_CASE("the energy ledger closes with walls, open faces and forces of every k
                     const auto gained = [&](energyLedger::term t) {
                         return energyLedger::sums(c)[t] - old[t];
                     };
-                    // monolithic: G p of a drop over a cyclic patch is no part of p's square
+                    // monolithic: G p of a pressure drop over a cyclic patch is not a part of the square of p
                     CHECK(gained(energyLedger::stabiliser) <=
                           (s.name == "pressure drop" ? 1e-5 : 1e-12) * largest(c));
                     CHECK(gained(energyLedger::viscosity) <= 0);
                     if (!c.walls->hasOpen())
                         CHECK(gained(energyLedger::shifting) <=
                               -gained(energyLedger::viscosity) + 1e-14 * largest(c));
-                    // (8.45): what shifting gives back was taken before
+                    // (8.45): the energy that shifting gives back was taken before
                     if (gained(energyLedger::shifting) > 0)
                     {
                         const List<scalar> all = energyLedger::sums(c);

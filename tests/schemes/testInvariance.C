@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An elastic block in four vortices of a square that repeats itself: what solves the system leaves no trace, and a
-// quarter between symmetry planes moves as it does in the whole, an observer may move along, and what is not resolved is refused
-// before it gains energy.  More of the kind: tutorials/ispfFsiFoam/invariance
+// An elastic block in four vortices of a periodic square.  The method of solution leaves no trace.  A quarter between
+// symmetry planes moves as in the whole square.  An observer may move along.  A flow that is not resolved is refused before
+// it gains energy.  Similar tests: tutorials/ispfFsiFoam/invariance
 #include "caseOnDisk.H"
 
 #include <cmath>
@@ -28,7 +28,7 @@ struct scene
     {
     }
 
-    // {u, v, w, p} after three steps, by the particles' numbers
+    // {u, v, w, p} after three steps, by the numbers of the particles
     std::map<globalId, vec4> run()
     {
         write();
@@ -93,7 +93,7 @@ scalar velocityDifference(const std::map<globalId, vec4>& some, const std::map<g
 
 TEST_CASE("what the preconditioner is does not show, nor in which direction it errs")
 {
-    // the level of the pressure is free: with what it does to the solid the difference was 1e-4
+    // the level of the pressure is free; with its effect on the solid the difference was 1e-4
     const auto one = scene("levelOne", "", false).run(),
                two = scene("levelTwo", "beta 2;", false).run();
     CHECK(velocityDifference(one, two) < 1e-9);
@@ -101,7 +101,7 @@ TEST_CASE("what the preconditioner is does not show, nor in which direction it e
 
 TEST_CASE("a quarter between symmetry planes moves as it does in the whole")
 {
-    // without images of the solid in the extrapolation to its surface it differed by 1e-5
+    // without images of the solid in the extrapolation to its surface the difference was 1e-5
     const auto part = scene("part", "", true).run(), whole = scene("whole", "", false).run();
     CHECK(part.size() == n * n / 4);
     CHECK(velocityDifference(part, whole) < 1e-9);

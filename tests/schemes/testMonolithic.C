@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The coupled system against a direct solution, and a thick ring that its inner fluid inflates
+// The coupled system compared with a direct solution, and a thick ring inflated by its inner fluid
 #include "FGMRES.H"
 #include "caseOnDisk.H"
 #include "luSolver.H"
@@ -18,8 +18,8 @@ namespace
 {
 
 constexpr scalar dx = 0.1, innerRadius = 1, outerRadius = 1.4, openRadius = 1.8;
-// The source is smooth and ends before the wall: one that jumps is spread by the divergence.  Rings of
-// width 1/nRings carry one value each; beyond the source's end there is one: a solid particle sees two zones at most.
+// The source is smooth and ends before the wall, because the divergence spreads a jump.  Rings of
+// width 1/nRings have one value each.  Beyond the end of the source there is one zone: a solid particle sees at most two.
 constexpr int nRings = 12, lastRing = 9;
 constexpr int ringZone = 2;  // first of them
 scalar profile(int ring)
@@ -28,7 +28,7 @@ scalar profile(int ring)
     return r < 1 ? std::pow(1 - r * r, 2) : 0;
 }
 
-// Disc of fluid, elastic ring, buffer fluid whose outermost layers lie beyond an open circle
+// Disc of fluid, elastic ring, and buffer fluid whose outermost layers lie beyond an open circle
 class ringCase
 {
 public:
@@ -137,7 +137,7 @@ scalar neoHookean(scalar G, scalar dA)
     return G * (std::log(in / out) + 0.5 * (1 / (out * out) - 1 / (in * in)));
 }
 
-// Mean over the inner fluid, about the open circle's zero
+// Mean pressure of the inner fluid, relative to the zero of the open circle
 scalar innerPressure(const particleCloud& cloud)
 {
     scalar sum = 0;
@@ -147,14 +147,14 @@ scalar innerPressure(const particleCloud& cloud)
     return sum / n;
 }
 
-// What springs of few layers reach of the modulus asked for is in their description: 0.978 of it with four
+// The modulus that springs of few layers reach, from their description: 0.978 of the requested one with four
 scalar modulusOf(const structureModel& structure)
 {
     const word text = structure.description(), before = "mean modulus ";
     return structure.shearModulus() * std::stod(text.substr(text.find(before) + before.size()));
 }
 
-// +25 % of the inner area in 50 steps of constant rate; c_s dt/dx and volumeFeedback as asked
+// Adds 25 % to the inner area in 50 steps at constant rate, with the given c_s dt/dx and volumeFeedback
 inflated inflate(const word& name, scalar courant, const word& feedback)
 {
     constexpr scalar dt = 0.01, stroke = 0.25 * M_PI * innerRadius * innerRadius;
@@ -189,7 +189,7 @@ inflated inflate(const word& name, scalar courant, const word& feedback)
             innerPressure(c.cloud) / neoHookean(modulusOf(*c.structure), stroke)};
 }
 
-// The ring's system of the first step
+// The system of the ring in the first step
 struct firstStep
 {
     capturedLog log;
@@ -265,7 +265,7 @@ TEST_CASE(
     label n = 0;
     for (label i = 0; i < c.cloud.n(); ++i) n += inner(i);
 
-    // u = x: in the time dt the ring's radius grows by the factor 1 + dt, the mean of its area by 1 + dt/2
+    // u = x: in the time dt the radius of the ring grows by the factor 1 + dt, the mean of its area by 1 + dt/2
     constexpr scalar dt = 0.1;
     for (label i = 0; i < c.cloud.nSolid(); ++i) c.cloud.Up[i] = vec4::from(c.cloud.x[i].xyz());
     List<scalar> q(c.cloud.n(), 0), dJ;
@@ -306,8 +306,8 @@ TEST_CASE(
 TEST_CASE(
     "a thick ring inflated by a quarter: same shape at c_s dt/dx = 1 and 300, wall volume kept")
 {
-    // volumes without feedback, as a controlled one proves nothing; the stiff wall's pressure as cases run,
-    // without it is 2.9 % off
+    // volumes are tested without feedback, because a controlled volume proves nothing; the stiff wall's pressure is tested
+    // with it, as in cases: without it the error is 2.9 %
     const inflated soft = inflate("ringSoft", 1, "0"), stiff = inflate("ringStiff", 300, "0");
     CHECK(std::abs(soft.wall) < 0.005);
     CHECK(std::abs(stiff.wall) < 0.005);

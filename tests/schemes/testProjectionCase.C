@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The scheme as a case runs it: dictionaries, boundary, limits
+// The scheme in a complete case: dictionaries, boundary, limits
 #include "caseOnDisk.H"
 #include "relative.H"
 
@@ -43,7 +43,7 @@ void disorder(particleTable& table, scalar most)
     for (vector& x : table.x) x += vector(next(), next(), 0);
 }
 
-// Water in that box under the acceleration a, in no order, with the pressure that carries it
+// Disordered water in that box under the acceleration a, with the pressure that balances it
 void fillBox(caseOnDisk& files, const word& coupling, const word& representation, const vector& a)
 {
     files.fill(10, 20, 0.02);
@@ -115,7 +115,7 @@ TEST_CASE("fluid stays at rest between rigid and between mirror walls, with both
         }
 }
 
-// A stream along walls has no divergence, however its particles lie; images of its no-slip have
+// A stream along walls has no divergence for any arrangement of particles; with no-slip images it would have one
 TEST_CASE("the pressure leaves a stream along mirror walls alone")
 {
     caseOnDisk files("streamAlongMirror");
@@ -204,7 +204,7 @@ TEST_CASE("fluid below an open face stays at rest under gravity, with both coupl
             speed = std::max(speed, c.cloud.Up[i].xyz().norm());
             error = std::max(error, std::abs(c.cloud.Up[i][3] - exact));
         }
-        // free fall: 2 m/s.  The monolithic scheme remembers that p was zero at first
+        // free fall would be 2 m/s.  The monolithic scheme remembers that p was zero at first
         CHECK(speed < (coupling == "projection" ? 1e-6 : 1e-3));
         CHECK(error < 1e-3 * 9810 * 0.4);
         CHECK(c.walls->balance()[3].created == 0);
@@ -228,7 +228,7 @@ TEST_CASE("a body force along a cyclic direction accelerates, all else of it is 
         CHECK((c.cloud.Up[i].xyz() - vector(0.2, 0, 0)).norm() < 1e-7);
 }
 
-// Velocity is the integral of what drives it, exactly for a ramp; p is that of the instant
+// The velocity is the integral of the force, exact for a ramp; p belongs to the instant
 TEST_CASE("a body force that grows with time")
 {
     for (const word coupling : {"projection", "monolithic"})
@@ -291,7 +291,7 @@ TEST_CASE("the limit that rules is named")
     CHECK(force.rule == "force");
     CHECK(force.dt == relative(0.25 * std::sqrt(h / 3)));
     CHECK(limitOf("limits { force 0.1; }", pushed, none).dt == relative(0.1 * std::sqrt(h / 3)));
-    // a pressure drop is a force before the first step as well: 1.92 Pa over 2 kg/m^3 x 0.32 m
+    // a pressure drop acts as a force before the first step too: 1.92 Pa over 2 kg/m^3 x 0.32 m
     word& sides = files.boundary;
     sides.insert(sides.find("separation"), "pressureDrop 1.92; ");
     const auto drop = limitOf("", "rho 2; mu 0.01;", none);

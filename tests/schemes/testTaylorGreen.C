@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Taylor-Green vortices in a periodic box against their exact decay:
+// Taylor-Green vortices in a periodic box compared with their exact decay:
 //     u = -cos kx sin ky e, v = sin kx cos ky e, p = -rho/4 (cos 2kx + cos 2ky) e^2,
 //     e = exp(-2 nu k^2 t), k = 2 pi
-// and the same flow uniform in z in three dimensions.
+// and the same flow in three dimensions, uniform in z.
 #include "capturedLog.H"
 #include "particleShifting.H"
 #include "viscousLoss.H"
@@ -112,7 +112,7 @@ TEST_CASE("the error of Taylor-Green is of first order in time")
 
 TEST_CASE("a reflection leaves the step's damping away: dt/2 |grad p|^2/rho of a projection")
 {
-    // of the kinetic energy, e^2/4: the mean of |grad p|^2 is pi^2 e^4
+    // of the kinetic energy e^2/4; the mean of |grad p|^2 is pi^2 e^4
     const scalar endTime = 0.3, rate = 2 * k * k / Re, Co = 0.1, dt = Co / 32;
     const scalar damping = 2 * dt * M_PI * M_PI * (1 - std::exp(-2 * rate * endTime)) / (2 * rate);
     scalar energy[3];
@@ -145,7 +145,7 @@ TEST_CASE("p is that of the flow from the first step on, and the second after th
         {
             vortex.advance(box, dt);
             const scalar error = vortexRun::compare(box.cloud, t += dt).p;
-            // p of a step is that of the way before it, over this step's length
+            // p of a step belongs to the motion before it, divided by the length of this step
             CHECK(error < (dt == before ? 0.08 : 1.1 * std::abs(before / dt - 1)));
             before = dt;
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What feedback puts into a solid is booked as long as it does, and goes on after a restart
+// The volume that feedback adds to a solid is booked in every step, and also after a restart
 #include "caseOnDisk.H"
 #include "relative.H"
 #include "volumeLedger.H"
@@ -14,7 +14,7 @@ namespace
 constexpr scalar dx = 0.01, swollen = 1.01, alpha = 0.1, dt = 0.01;
 constexpr int n = 10;
 
-// Half of a block, swollen by 1 % each way, at the symmetry plane x = 0
+// Half of a block, swollen by 1 % in each direction, at the symmetry plane x = 0
 void writeSwollen(caseOnDisk& files)
 {
     files.fill(n, n, dx);
@@ -45,7 +45,7 @@ TEST_CASE("the ledger books what the wall's feedback takes out, of the whole bod
     CHECK(excess == relative(2 * n * n * dx * dx * (swollen * swollen - 1), 1e-9));
     runSteps(c, *scheme, dt, 1);
     CHECK(ledger.wallFeedback() == relative(-alpha * excess, 1e-9));
-    // what is measured later is booked later, from a restart on too
+    // a change that is measured later is booked later, also after a restart
     const scalar before = ledger.wallFeedback(), left = ledger.wallVolume() - 2 * n * n * dx * dx;
     c.write();
     setContent(files.path() + "/system/controlDict",

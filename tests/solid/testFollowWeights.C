@@ -61,7 +61,7 @@ TEST_CASE("what is not known is not guessed: noise is never amplified")
     for (const label n : {1, 2, 3, 4})
         for (const scalar jitter : {0.0, 0.1, 0.2})
         {
-            // One jittered layer leans on its own roughness, so only a flat one is looked at
+            // one jittered layer leans with its own roughness, so only a flat one is tested
             if (n == 1 && jitter > 0) continue;
             scalar square = 0;
             for (const scalar w : followWeights(layersAbove(n, jitter))) square += w * w;

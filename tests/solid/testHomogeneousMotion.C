@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stress of the links against their forces and their energy, and against the exact law of the endless lattice.
+// The stress of the links compared with their forces and their energy, and with the exact law of the endless lattice.
 #include "homogeneousMotion.H"
 #include "solidMotions.H"
 
@@ -66,7 +66,7 @@ TEST_CASE("Through symmetry planes a quarter has the stresses of the whole")
         if (x[0] > middle && x[1] > middle) part.x0.push_back(x), part.fixed.push_back(0);
     const isometry mx = mirrorAt(0, middle), my = mirrorAt(1, middle);
     part.images = {mx, my, {mx.R * my.R, mx.t + my.t}};
-    // a motion that keeps both planes where they are
+    // a motion that keeps both planes in place
     const homogeneousMotion motion = motionOf("uniaxial", frameAlong({0, 0, 1}), 3, 1.3);
     const vector fixed(middle, middle, 0), shift = fixed - motion.F * fixed;
     List<tensor> all, some;
@@ -96,7 +96,7 @@ TEST_CASE("Motions keep the volume, and their stress is the slope of the energy"
                 CHECK(at(lambda).F.determinant() == doctest::Approx(1).epsilon(1e-13));
                 const scalar step = 1e-5;
                 const homogeneousMotion up = at(lambda + step), down = at(lambda - step);
-                // of the stretch, or of what shear slides
+                // amount of the stretch or of the shear
                 const scalar amount = name == "shear" ? (up.F - down.F).norm() : 2 * step;
                 const scalar per = (name == "equibiaxial" ? 0.5 : 1) / amount;
                 const scalar slope = per * (energyIn(*model, up) - energyIn(*model, down));
@@ -111,7 +111,7 @@ TEST_CASE("Motions keep the volume, and their stress is the slope of the energy"
 
 TEST_CASE("The endless cubic lattice of radius 2 follows its exact law")
 {
-    // K/dx = 1; stretching along [100], sides by lambda^-1/2: own evaluation of the lattice sum beforehand
+    // K/dx = 1; stretch along [100], sides by lambda^-1/2; the lattice sum was evaluated separately
     structureReference ref = latticeBlock(7, 7, 7);
     const auto model = springs(ref, "links radius; radius 2; k_e 1e3;");
     List<char> inside(ref.x0.size(), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Moduli of the lattice against exact sums, and of whole bodies against the modulus asked for.
+// Moduli of the lattice compared with exact sums, and moduli of whole bodies with the requested modulus.
 #include "solidMotions.H"
 #include "springLinks.H"
 #include "springModuli.H"
@@ -26,7 +26,7 @@ label nearestTo(const structureReference& ref, const vector& point)
     return best;
 }
 
-// E measured over E asked for: tension along a of a slab of `layers`, in its middle
+// Measured E over requested E, for tension along a in the middle of a slab of `layers`
 scalar slabModulus(const structureReference& ref, const word& entries, scalar angle)
 {
     const auto model = springs(ref, entries);
@@ -87,7 +87,7 @@ TEST_CASE("Moduli of the triangular lattice equal the exact sums")
     {
         CAPTURE(radius);
         const referenceNeighbours pairs(ref, radius * ref.dx * (1 + 1e-6));
-        // per depth; this lattice has sqrt(3)/2 dx^2 per particle
+        // per depth; in this lattice a particle has the area sqrt(3)/2 dx^2
         const List<scalar> k(size_t(pairs.nPairs()), 1 / std::sqrt(0.75));
         const modulusTensor C = particleModulus(ref, pairs, k, centre);
         CHECK(pairs.count(centre) == n);
@@ -141,17 +141,17 @@ TEST_CASE("Fourth-order directions: product, rotation, isotropic mean")
 
 TEST_CASE("Equal links in a slab are as soft as the missing neighbours make them")
 {
-    // relative modulus of slabs, 18 links, along [100]: exact for affine strain (own derivation
-    // from the same sums, springs with |dz| = m dx exist in N - m of N layers)
+    // relative modulus of slabs with 18 links along [100], exact for affine strain (own derivation
+    // from the same sums: springs with |dz| = m dx exist in N - m of N layers)
     for (const auto& [layers, expected] : {std::pair{3, 0.8333333333}, {4, 0.875}, {5, 0.9}})
     {
         CAPTURE(layers);
         CHECK(slabModulus(latticeBlock(11, 11, layers), "links lattice18; k_e 1e6;", 0) ==
               doctest::Approx(expected).epsilon(0.005));
     }
-    // 32 links of up to 2 dx, 3 layers: the same sums with the strains across the tension free
-    // (tutorials/ispfFsiFoam/springs/validation/lattice.py).  With the tension of the edges taken for that of the middle
-    // 2 % too stiff
+    // 32 links of up to 2 dx, 3 layers: the same sums with free strains across the tension
+    // (tutorials/ispfFsiFoam/springs/validation/lattice.py).  With the tension of the edges in place of that of the middle
+    // the result would be 2 % too stiff
     const structureReference slab = latticeBlock(14, 14, 3);
     const word entries = "links radius; radius 2; k_e 1e6;";
     const scalar bulk = 2.6 * 1e6 * slab.h / slab.dx;  // G, sum k d^2/(30 V)

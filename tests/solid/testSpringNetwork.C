@@ -20,7 +20,7 @@ List<scalar> flat(const List<vec4>& f, int nDims)
     return a;
 }
 
-// Force by central differences of the energy, relative error over the largest force
+// Error of the force against central differences of the energy, over the largest force
 scalar forceError(const structureModel& model, List<vec4> x)
 {
     const scalar step = 1e-6 * model.reference().dx;
@@ -42,7 +42,7 @@ scalar forceError(const structureModel& model, List<vec4> x)
     return error / most;
 }
 
-// The tangent's columns by central differences of the force
+// Error of the tangent's columns against central differences of the force
 scalar tangentError(const structureModel& model, const List<vec4>& x)
 {
     const scalar step = 1e-5 * model.reference().dx;
@@ -97,7 +97,7 @@ structureReference quarter(const structureReference& whole, const vector& centre
     return part;
 }
 
-// Disordered and symmetric about x = y = 0: a disordered quarter and its reflections
+// A body symmetric about x = y = 0: a disordered quarter and its reflections
 structureReference symmetricBody(scalar dx)
 {
     structureReference ref = disorderedBlock(4, 4, 5, dx);
@@ -175,7 +175,7 @@ TEST_CASE("The full tangent is the force's derivative; the positive one has no n
         CHECK((full - full.transpose()).norm() < 1e-13 * full.norm());
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> fullValues(full,
                                                                         Eigen::EigenvaluesOnly);
-        // squeezed links make the full one indefinite, which is why it is not used
+        // squeezed links make the full tangent indefinite, which is why it is not used
         CHECK(fullValues.eigenvalues().minCoeff() < -1e-5 * fullValues.eigenvalues().maxCoeff());
 
         model->assembleTangent(x, tangentKind::positive, K);
@@ -228,8 +228,8 @@ TEST_CASE("A quarter between two symmetry planes is a quarter of the whole")
 
 TEST_CASE("A cyclic block pulls like an endless one, also through turned images")
 {
-    // a sector of 90 degrees of a ring: the images are rotations, which change the force's
-    // direction
+    // a sector of 90 degrees of a ring: the images are rotations, which change the direction of the
+    // force
     structureReference ref = emptyReference(3, 1e-3);
     for (int k = 0; k < 3; ++k)
         for (int a = 0; a < 8; ++a)
@@ -271,7 +271,7 @@ TEST_CASE("Between clamped particles there is no link, towards free ones there i
     x[0][0] += 0.3 * ref.dx;  // clamped, its neighbours in the lowest two layers too
     model->force(x, f);
     for (label i = 0; i < ref.n(); ++i) CHECK(f[i].xyz().norm() == 0);
-    // a free particle above them is held as if nothing were clamped, and pulls at them
+    // a free particle above the clamped ones is held as if nothing were clamped, and pulls at them
     ref.fixed.assign(ref.x0.size(), 0);
     const auto unclamped = springs(ref, "links lattice18; k_e 1e6;");
     x = atRest(ref);

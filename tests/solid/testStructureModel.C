@@ -65,7 +65,7 @@ TEST_CASE("Wrong entries are refused with what is valid")
     CHECK(contains(error(net + "links lattice18; E 1; rho 1100;"), "1000"));
     CHECK(error(net + "links lattice18; E 1; rho 1000;") == "");
     CHECK(contains(error(net + "links lattice18; E 1; nu 0.5;"), "nu"));
-    // six neighbours resist no shear
+    // six neighbours have no resistance to shear
     CHECK(contains(error(net + "links radius; radius 1; E 1;"), "shear"));
     CHECK(contains(error(net + "links radius; radius 1; k_e 1;"), "shear"));
 }

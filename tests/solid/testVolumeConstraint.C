@@ -10,7 +10,7 @@ using namespace ispf::test;
 namespace
 {
 
-// Velocities (and pressures in the fourth component) at random
+// Random velocities (and pressures in the fourth component)
 List<vec4> noise(label n)
 {
     List<vec4> u(n);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Crossings, thin places and caps of surfaces whose answers are known
+// Crossings, thin places and caps of surfaces with known answers
 #include "facetCrossings.H"
 #include "featureSize.H"
 #include "geometry/testShapes.H"
@@ -108,7 +108,7 @@ TEST_CASE("facets that cross are found with the place, facets that touch are not
     CHECK(!facetCrossings(surfaceSearch(shallow), 1e-6, 100).empty());
     CHECK(facetWithin(shallow, 1e-6) >= 0);
 
-    // overlap along common planes: no edge goes through a facet
+    // overlap along common planes: no edge passes through a facet
     triSurface aligned = box({0, 0, 0}, {2, 1, 1});
     aligned.append(box({1, 0, 0}, {3, 1, 1}));
     CHECK(facetCrossings(surfaceSearch(aligned), 1e-9, 10).empty());
@@ -136,7 +136,7 @@ TEST_CASE(
                 CHECK(facetWithin(touching, 1e-4) == -1);
             }
     }
-    // cubes that touch by whole faces, or parts of them
+    // cubes that touch by whole faces or by parts of them
     for (const unsigned seed : {0u, 1u, 2u})
         for (const vector& next : {vector(2, 0, 0), vector(2, 1, 0)})
         {
@@ -152,7 +152,7 @@ TEST_CASE(
             CHECK(s.volume() == doctest::Approx(24));
             CHECK(facetWithin(s, 1e-4) == -1);
         }
-    // that overlap, turned at random: what lies in both could not be told
+    // cubes that overlap, turned at random: points inside both could not be recognised
     for (const vector& shift : {vector(1, 1, 1), vector(1, 0, 0), vector(1, 1, 0)})
     {
         triSurface s = latticeCube({0, 0, 0});
@@ -220,7 +220,7 @@ TEST_CASE("the tightest rounding")
     CHECK(std::hypot(tight.at[0] + 1, tight.at[1] - 1) == relative(1, 1e-9));
     // the same outline as a prism in two dimensions: its ends do not count
     CHECK(smallestRadius(groove, 0.1, true).size == relative(1, 0.05));
-    // round-off of coordinates is no curve
+    // rounding of coordinates is no curvature
     triSurface plate = box({0, 0, 0}, {3, 2, 1});
     plate.add({0, 0, 1}, {3, 0, 1}, {1.5, 1e-6, 1 + 1e-7}, 0);
     CHECK(!smallestRadius(plate, 0.1, false).found());
@@ -274,7 +274,7 @@ TEST_CASE("caps that cannot be are refused with the measure")
     says(refusalOf(box({0, 0, 0}, {1, 1, 1}), {}, 0.05), "has no open end");
 }
 
-// Outer side, lumen, and a cord in the lumen, whose three rims at each end lie within one another
+// Outer side, lumen, and a cord in the lumen; at each end their three rims lie within one another
 TEST_CASE("the wall of a thick vessel is capped by rings")
 {
     const int n = 30, m = 17;

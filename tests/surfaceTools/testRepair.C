@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is repaired, counted against what was broken
+// Repairs are compared with the damage that was done
 #include "boundaryLoops.H"
 #include "geometry/testShapes.H"
 #include "relative.H"
@@ -27,7 +27,7 @@ void addTriangle(triSurface& s, triSurface::triangle f)
     s.triangles.push_back(f), s.patch.push_back(0);
 }
 
-// Triangles in any order, turned and begun anywhere
+// Triangles in random order, with random orientation and first corner
 triSurface shuffled(const triSurface& s, unsigned seed)
 {
     std::mt19937 g(seed);
@@ -136,7 +136,7 @@ TEST_CASE("each defect is repaired and counted")
 
 TEST_CASE("a seam with other nodes on either side is sewn")
 {
-    // two halves of a box, one side of the seam with three nodes more
+    // two halves of a box; one side of the seam has three nodes more
     triSurface s = box({0, 0, 0}, {1, 1, 1});
     triSurface open = s.subset([&](label t) { return s.normal(t)[2] < 0.5; });
     for (const auto& [a, b] : {std::pair{0.0, 0.3}, {0.3, 0.35}, {0.35, 1.0}})
@@ -165,7 +165,7 @@ TEST_CASE("holes are found with place, size, edges and plane")
     CHECK(loops[0].nodes.size() == 4);
     CHECK(loops[0].offPlane < 1e-14);
     CHECK(loops[0].describe(0.5) == "at (0 1 0.5) m, 2 m = 4 dx across, 4 edges");
-    // two holes that touch in a node stay two
+    // two holes that touch in a node remain two
     triSurface pinched = box({0, 0, 0}, {1, 1, 1});
     dropTriangle(pinched, 6), dropTriangle(pinched, 2);
     CHECK(boundaryLoops(pinched).size() == 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// a_ij = (B_i + B_j)/2 g_ij + w_ij (psi_i - psi_j): antisymmetric whatever B and psi are
+// a_ij = (B_i + B_j)/2 g_ij + w_ij (psi_i - psi_j) is antisymmetric for all B and psi
 #include "operatorPair.H"
 
 #include <cmath>
@@ -18,7 +18,7 @@ field withoutMean(const field& v)
     return v.array() - v.mean();
 }
 
-// sum_j w_ij (psi_i - psi_j) = r by conjugate gradients; r and psi have no mean
+// Solves sum_j w_ij (psi_i - psi_j) = r by conjugate gradients; r and psi have zero mean
 field solveGraph(const scene& s, const field& right, double tolerance)
 {
     const matrix A = 0.5 * compactLaplacian(s);
@@ -92,7 +92,7 @@ void faceVectors::close(double tolerance)
     for (int c = 0; c < 2; ++c) psi_.col(c) += solveGraph(s_, right.col(c), tolerance);
 }
 
-// psi and B together: the least sum_ij a_ij^2/w_ij with the closure, and the moments as far as
+// Finds psi and B together: the least sum_ij a_ij^2/w_ij with the closure; the moments are met as far as
 // penalty |B - B_0|^2 allows.  Each component c of a has three unknowns per particle: psi_c and row c of B
 void faceVectors::fit(double penalty, int iterations)
 {

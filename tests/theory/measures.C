@@ -20,7 +20,7 @@ field withoutMean(const field& v)
     return v.array() - v.mean();
 }
 
-// Every solid particle moves as it likes, the walls as one
+// Every solid particle has its own random velocity, the walls have a common one
 motion randomMotion(const scene& s, std::mt19937& random)
 {
     std::normal_distribution<double> normal;

@@ -12,7 +12,7 @@ perAxis zeros(int rows, int columns)
     return {matrix(rows, columns), matrix(rows, columns)};
 }
 
-// sum_j c (q_j - q_i), the coefficient c a vector
+// Adds the entries of sum_j c (q_j - q_i), with a vector c
 void addDifference(std::array<entries, 2>& e, int i, int j, const vec2& c)
 {
     for (int axis = 0; axis < 2; ++axis)
@@ -102,8 +102,8 @@ operatorPair plainAdjoint(const scene& s)
     return pair;
 }
 
-// G p_i = sum a_ij (p_j - p_i) + sum_k w_ki S_k (p at the wall - p_i)/V, its transpose D.  The force on
-// facet k is S_k times the mean of p at the wall, and the facet's velocity enters D by the same weights
+// G p_i = sum a_ij (p_j - p_i) + sum_k w_ki S_k (p at the wall - p_i)/V, and its transpose D.  The force on
+// facet k is S_k times the mean of p at the wall; the facet's velocity enters D with the same weights
 operatorPair faceVectors::pair(bool linearAtWall) const
 {
     const scene& s = s_;

@@ -88,7 +88,7 @@ void scene::placeWalls()
         }
 }
 
-// S_k = 2 c V sum_solid g, antisymmetric: the sum is zero.  c makes sum S (x) x = - area I at the circle
+// S_k = 2 c V sum_solid g is antisymmetric: the sum is zero.  c makes sum S (x) x = - area I at the circle
 void scene::placeDisc()
 {
     const int n = int(std::lround(1 / dx));

@@ -30,7 +30,7 @@ remap::remap(const scene& s, const std::vector<vec2>& shift, double smoothed) : 
     separate(s);
 }
 
-// k_ij += chi_i - chi_j, so that no row has a sum
+// Adds chi_i - chi_j to k_ij, so that no row has a sum
 void remap::separate(const scene& s)
 {
     entries e;
@@ -69,7 +69,7 @@ MatrixXd remap::apply(remapRule rule, const MatrixXd& u, double allowed) const
 namespace
 {
 
-// low + t added, t <= 1 the largest with which no more energy is gained than allowed; |low| <= |u|
+// low + t added, with the largest t <= 1 that gains no more energy than allowed; |low| <= |u|
 MatrixXd withoutGain(const MatrixXd& u, const MatrixXd& low, const MatrixXd& added, double allowed)
 {
     const double a = added.squaredNorm(), b = low.cwiseProduct(added).sum(),
@@ -80,8 +80,8 @@ MatrixXd withoutGain(const MatrixXd& u, const MatrixXd& low, const MatrixXd& add
 
 }  // namespace
 
-// The doubly stochastic part first: max(c, 0) and k upwind.  What is left are antisymmetric pair fluxes:
-// limited pair by pair (Zalesak 1979), then all alike
+// First the doubly stochastic part: max(c, 0), and k upwind.  The rest are antisymmetric pair fluxes; they are
+// limited pair by pair (Zalesak 1979), then all by one factor
 MatrixXd remap::limited(const MatrixXd& u, double allowed) const
 {
     MatrixXd low = u, added = u;

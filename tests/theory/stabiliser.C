@@ -7,7 +7,7 @@ namespace theory
 namespace
 {
 
-// |G p|_i^2 <= s_i sum_j w_ij (p_j - p_i)^2 with s_i = largest eigenvalue of sum_j c c^T/w_ij (Cauchy-Schwarz)
+// s_i, the largest eigenvalue of sum_j c c^T/w_ij: |G p|_i^2 <= s_i sum_j w_ij (p_j - p_i)^2 (Cauchy-Schwarz)
 field steepness(const scene& s, const operatorPair& pair)
 {
     field steep(s.size());
@@ -38,7 +38,7 @@ matrix boundedLaplacian(const scene& s, const operatorPair& pair)
     return fromEntries(s.size(), s.size(), e);
 }
 
-// Every pair once, so that its weight is twice w_ij
+// Counts every pair once, so that its weight is 2 w_ij
 matrix remainderSquared(const scene& s, const operatorPair& pair)
 {
     int pairs = 0;

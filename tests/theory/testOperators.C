@@ -99,7 +99,7 @@ TEST_CASE("table of candidates: gradient and divergence")
         CHECK(exact.order(&errors::G) > 0.65);
         if (kind == shape::periodic) continue;
         CHECK(swept.e[2].GAtWall < 0.5 * find(rows, kind, "faces 3/1, p_i").e[2].GAtWall);
-        // open or not in balance at the wall: an error of order 0 or worse
+        // not closed, or not in balance at the wall: an error of order 0 or worse
         CHECK(find(rows, kind, "symmetric, open").order(&errors::D) < -0.5);
         CHECK(find(rows, kind, "plain adjoint").order(&errors::G) < -0.5);
     }

@@ -29,7 +29,7 @@ state anyState(int n)
     return state::NullaryExpr(n, [] { return normal(); });
 }
 
-// Skew: what an adjoint pair is to u and p.  Symmetric, >= 0: viscosity and stabiliser
+// A random matrix whose skew part acts as an adjoint pair on u and p; its symmetric part, >= 0, is viscosity and stabiliser
 operation anySkew(int n)
 {
     const operation a = operation::NullaryExpr(n, n, [] { return normal(); });
@@ -41,7 +41,7 @@ operation anyLoss(int n)
     return a * a.transpose();
 }
 
-// Largest |E2 - E1 + k <y, R y> + |sum lambda y|^2|/E1: every step has its own operators, as moving particles have
+// Largest |E2 - E1 + k <y, R y> + |sum lambda y|^2|/E1; every step has its own operators, as with moving particles
 double defect(timeScheme s, double most)
 {
     const int n = 12;
@@ -62,7 +62,7 @@ double defect(timeScheme s, double most)
     return worst;
 }
 
-// y' = A(t) y, an oscillator of changing frequency with a little loss; steps between 1/most and most
+// Error for y' = A(t) y, an oscillator of changing frequency with a little loss; steps between 1/most and most
 double error(timeScheme s, int steps, double most)
 {
     double sum = 0;
@@ -99,8 +99,8 @@ double order(timeScheme s, double most)
     return std::log2(error(s, 100, most) / error(s, 200, most));
 }
 
-// Roots of (alpha2 - z beta2) x^2 + (alpha1 - z beta1) x + alpha0 - z beta0, equal steps; that next to
-// exp(z), and the larger one where z = - infinity
+// Roots of (alpha2 - z beta2) x^2 + (alpha1 - z beta1) x + alpha0 - z beta0 for equal steps: the root next to
+// exp(z), and the larger root for z = - infinity
 complex root(timeScheme s, const complex& z)
 {
     const coefficients c(s, 1, 1);
@@ -120,8 +120,8 @@ double lagPerPeriod(timeScheme s, double wk)
     return 1 - std::arg(root(s, complex(0, wk))) / wk;
 }
 
-// Largest growth of E in two steps that are repeated: the steps' ratio 1 : r and 1/r : 1, each step with a
-// frequency of its own, as when particles move between them
+// Largest growth of E in two steps that are repeated: with step ratios 1 : r and 1/r : 1, and each step with its own
+// frequency, as when particles move between the steps
 double growth(timeScheme s, double r)
 {
     double worst = 0;
@@ -145,7 +145,7 @@ double growth(timeScheme s, double r)
     return worst;
 }
 
-// Largest relative gain of E where a doubly stochastic map acts on both levels, or on the newer one
+// Largest relative gain of E by a doubly stochastic map, on both levels or on the newer one
 double gain(timeScheme s, bool both)
 {
     source.seed(3);

@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 namespace
 {
 
-// Away from where particles are dense (Fick's law), at most 0.05 dx
+// Shift away from places with many particles (Fick's law), at most 0.05 dx
 std::vector<vec2> fickShift(const scene& s)
 {
     std::vector<vec2> shift;
@@ -40,7 +40,7 @@ MatrixXd noise(const scene& s, std::mt19937& random)
     return MatrixXd::NullaryExpr(s.size(), 2, [&] { return normal(random); });
 }
 
-// Share of dr.grad u that is missed, smooth u
+// Share of dr.grad u that is missed for a smooth u
 double missed(const scene& s, remapRule rule, double allowed)
 {
     const std::vector<vec2> still(s.size(), vec2::Zero()), shift = fickShift(s);

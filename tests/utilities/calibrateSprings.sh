@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# calibrateSprings fails where a modulus that is asked for is missed, and judges none where none is asked for
+# calibrateSprings fails if a requested modulus is not reached; without a requested modulus it judges none
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 
@@ -16,7 +16,7 @@ calibrated "E 1e4; links radius; radius 2.1;" 0 ": within 0.95 to 1.05"
 calibrated "E 1e4; links radius; radius 1.42;" 1 ": NOT within"
 calibrated "k_e 1e4; links lattice8;" 0 "not judged"
 
-# -response: the modulus of 18 springs is 3 k/dx, of a slab of three layers 5/6 of that; hByDx is the case's
+# -response: the modulus of 18 springs is 3 k/dx, that of a slab of three layers 5/6 of it; hByDx is that of the case
 mkdir -p response/system response/constant; cd response || exit 1
 echo "hByDx 1.5;" > system/sphSchemes
 echo "structureModel springNetwork; links lattice18; k_e 1e4;" > constant/structureProperties

@@ -6,7 +6,7 @@ set -uo pipefail
 cd "$scratch" || exit 1
 mkdir system constant
 
-# A tank of water on an elastic floor of so many millimetres, held at its ends; dx 1 mm
+# A tank of water on an elastic floor with the given thickness in millimetres, held at its ends; dx 1 mm
 tank() {
     cat > system/particleDict <<END
 dx 1e-3; nDims 2; placement lattice;

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Dictionaries as OpenFOAM reads them, where it is installed (bin/installDependencies openfoam): ispfDictionary
-# -expand and foamDictionary -expand give the same words, and what is written is read again as the same.
-# TUTORIALS=1 takes all files of OpenFOAM's tutorials, not every thirtieth.
+# Compares with OpenFOAM's reader if it is installed (bin/installDependencies openfoam): ispfDictionary
+# -expand and foamDictionary -expand give the same words, and the written text reads back as the same.
+# TUTORIALS=1 takes all files of OpenFOAM's tutorials instead of every thirtieth.
 set -uo pipefail
 command -v foamDictionary > /dev/null || { echo "  OpenFOAM is not installed (bin/installDependencies openfoam)"; exit 77; }
 export WM_PROJECT_DIR=${WM_PROJECT_DIR:-/usr/share/openfoam}
@@ -13,7 +13,7 @@ work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 failures=0
 
-# One word a line, numbers to nine digits; what OpenFOAM says of a list without a keyword is no word
+# One word per line, numbers to nine digits; OpenFOAM's remark on a list without a keyword is removed
 words() {
     sed -E '\|^//|d; s|// entry[0-9]+$||' "$1" | sed -E 's/([][(){};/])/ \1 /g' | tr -s ' \t' '\n' |
         awk '/^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/ { printf "%.9g\n", $1; next } NF'
@@ -44,7 +44,7 @@ compare() {
 compared=0; refused=0
 cp "$cases"/* .
 for f in "$cases"/*; do compare "$(basename "$f")" "$(basename "$f")"; done
-# #ifeq of everything with everything.  Here 5.0 is 5 on both sides and ${x} the same as $x, in OpenFOAM not quite
+# #ifeq of all operands with all.  Here 5.0 is 5 on both sides, and ${x} is the same as $x; in OpenFOAM not always
 operands=(5 '"5"' abc '"abc"' '$x' '"$x"' '$y' '"$y"' '"${y}"' '$z' '"$z"' '"$s.t"' on true '""' '"$none"')
 {
     echo 'FoamFile { version 2.0; format ascii; class dictionary; object conditions; } x 5; y abc; z "abc"; s { t 1; }'
@@ -57,7 +57,7 @@ compare conditions conditions
 if [ -d $examples ]; then
     every=30; [ -z "${TUTORIALS:-}" ] || every=1
     cp -rL "$examples/." tutorials && find tutorials -name '*.gz' -exec gunzip -f {} + 2> unpacked.err
-    # missed-ending: meant to be broken; OpenFOAM reads what it can of them
+    # missed-ending: broken on purpose; OpenFOAM reads what it can
     grep -rlI '^ *FoamFile' tutorials | grep -v '/missed-ending' | sort | awk -v n=$every 'NR % n == 1 || n == 1' > list
     while read -r f; do compare "$f" "${f#tutorials/}"; done < list
 fi

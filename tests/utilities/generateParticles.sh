@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# generateParticles on a small STL case, then on what people get wrong: each a clear error, status 1,
+# generateParticles on a small STL case, then with typical mistakes of users: each gives a clear error, status 1,
 # and no particles
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
@@ -29,13 +29,13 @@ generateParticles > out 2>&1 && grep -q '^water .* 1000  *+0.00' out && grep -q 
 dict "file \"constant/cube.stl\"; unit um;" 0.1
 refused "a cube smaller than what is joined" "room for 0 particles" "Are dx and the unit of the file right"
 dict "$stl"
-# two dimensions: nothing leaves z = 0 where a solid is packed
+# in two dimensions all particles stay at z = 0 when a solid is packed
 cp system/particleDict keptDict
 echo 'dx 0.01; nDims 2; zones { water { phase fluid; shape box; min (0 0 0); max (0.2 0.1 0); }
     plate { phase solid; shape box; min (0 0.1 0); max (0.2 0.13 0); } }' > system/particleDict
 generateParticles > out 2>&1 && h5dump -m %.17g -y -w 1 -d /VTKHDF/Points 0/particles.hdf | tr -d ' ,' | grep -E '^[-0-9.e+]+$' |
     paste - - - | awk 'NF == 3 { ++n; bad = bad || $3 != 0 } END { exit bad || n < 250 }' || fail "z in two dimensions: $(tail -n 5 out)"
-# thin plates, beside other zones and with fluid all around, have every particle of theirs
+# thin plates, beside other zones and with fluid all around, get all their particles
 for zones in 'ch { phase fluid; shape box; min (-0.2 0 0); max (0.2 0.1 0); } bath { phase fluid; shape box; min (-0.2 0.13 0);
         max (0.2 0.2 0); } plate { phase solid; shape box; min (-0.2 0.1 0); max (0.2 0.13 0); }' \
     'tank { phase fluid; shape box; min (-0.1 0 0); max (0.3 0.2 0); } plate { phase solid; shape box; min (0 0.1 0); max (0.2 0.12 0); }' \
@@ -43,7 +43,7 @@ for zones in 'ch { phase fluid; shape box; min (-0.2 0 0); max (0.2 0.1 0); } ba
     echo "dx 0.01; nDims 2; zones { $zones }" > system/particleDict
     generateParticles > out 2>&1 && grep -Eq '^plate +[^ ]+ +[0-9]+ +[-+]0.00' out && ! grep -q Warning out || fail "a thin plate: $(tail -n 8 out)"
 done
-# each layer along a wall's surfaces has the particles of its area: layersOf inner outer layers, radii in dx, of a quarter
+# each layer along a wall's surfaces has the particles of its area: layersOf inner outer layers, radii in dx, for a quarter
 cp constant/boundary keptBoundary
 echo 'a { type symmetryPlane; point (0 0 0); normal (-1 0 0); } b { type symmetryPlane; point (0 0 0); normal (0 -1 0); } walls { type wall; }' > constant/boundary
 layersOf() {
@@ -69,7 +69,7 @@ mkdir 0.5 1; touch 0.5/particles.hdf
 generateParticles > out 2>&1; grep -q "times of an earlier run: 0.5\." out || fail "an earlier run: $(cat out)"
 rm -r 0.5 1
 
-# In 2D a zone is open where symmetry planes cut it: its area is none the less known
+# In 2D a zone is open where symmetry planes cut it; its area is known nevertheless
 plane() { echo "$1 { type symmetryPlane; point ($2 0); normal ($3 0); }"; }
 for planes in "$(plane a '0 0' '-1 0')" "$(plane a '0 0' '-1 0') $(plane b '0.01 0' '1 0')" \
     "$(plane a '0 0' '-1 0') $(plane b '0.02 0.02' '0 1')" \
@@ -93,7 +93,7 @@ generateParticles > out 2>&1 && grep -q '^water  *1e-06  *1000  *[+-]0.00' out |
 rm -rf 0
 echo "walls { type wall; }" > constant/boundary
 
-# Velocity and pressure at the start, by formulas
+# Velocity and pressure at the start, from formulas
 dict "$stl U (\"10*x - y\" 2 \"sin(pi*z/0.02)\"); p \"dx*sqrt(x*x)\";"
 generateParticles > out 2>&1 || fail "initial fields: $(tail -n 5 out)"
 columns() { h5dump -m %.12g -y -w 1 -d "/VTKHDF/$1" 0/particles.hdf | sed '/ATTRIBUTE/,$d' | tr -d ' ,' | grep -E '^[-0-9.e+]+$'; }
@@ -139,7 +139,7 @@ refused "misspelt entry" "colur"
 dict "phase2 x;"
 refused "zone without shape" "file or a shape"
 
-# Shapes that cannot be, and numbers of no use
+# Impossible shapes and useless numbers
 shape() { echo "dx 1e-3; placement lattice; ${2:-} zones { water { phase fluid; shape $1 } ${3:-} }" > system/particleDict; }
 box="box; min (0 0 0); max (0.01 0.01 0.01);"
 tube="point1 (0 0 0); point2 (0 0 0.01);"
@@ -172,14 +172,14 @@ refused "name with a blank" "cannot be a name"
 dict 'file "";'
 refused "no file name" "is not a file" "water.file at line 1"
 
-# gmsh goes on after what it cannot read in a script; the user would lack a part
+# gmsh continues a script after a line that it cannot read; a part of the geometry would be missing
 for line in "Box(2) = {20, 0, 0, 10" "Merge \"nothere.step\";" "garbage words;"; do
     printf 'SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 10, 10, 10};\n%s\n' "$line" > constant/bad.geo
     dict 'file "constant/bad.geo"; unit mm;'
     refused "a script with '$line'" "gmsh stumbles" "bad.geo"
 done
 
-# Zones that only touch do not overlap; a spacing that does not divide a box is told
+# Zones that only touch do not overlap; a spacing that does not divide a box is reported
 ring='shape annulus; point1 (0 0 0); point2 (0 0 0.02); innerRadius 4e-3; outerRadius 6e-3;'
 echo "dx 1e-3; placement lattice; zones { ring { phase solid; $ring } lumen { phase fluid; shape cylinder;
     point1 (0 0 0); point2 (0 0 0.02); radius 4e-3; } }" > system/particleDict
@@ -188,7 +188,7 @@ generateParticles > out 2>&1 || fail "ring and lumen: $(tail -n 5 out)"
 dict "shape box; min (0 0 0); max (1.04e-2 1.04e-2 1.04e-2);"
 generateParticles > out 2>&1 && grep -q "water miss its volume by -.* bodyFitted" out || fail "spacing and box: $(cat out)"
 
-# Zones that overlap: who takes how much of whom, and where
+# Zones that overlap: which zone takes how much of which, and where
 ice='ice { phase fluid; shape box; min (0.008 0 0); max (0.012 0.01 0.01);'
 shape "$box" "" "$ice }"
 refused "ice half in the water" "Zone ice lies partly in zone water, which comes before it, and takes 2e-07 m3 of it around (0.009 0.005 0.005)" "mayOverlap yes" "particleDict.zones.ice at line"
@@ -200,7 +200,7 @@ shape "$box" "" "$block }"
 generateParticles > out 2>&1 || fail "a rigid zone half in the water: $(tail -n 5 out)"
 shape "$box" "" "$block mayOverlap yes; }"
 refused "mayOverlap of a rigid zone" "Zone walls is rigid" "may lie partly in them" "zones.walls.mayOverlap at line"
-# whichever comes first, and however small the one is that loses of it
+# in either order, and however small the losing zone is
 echo "dx 1e-3; placement lattice; zones { ice { phase fluid; shape box; min (-0.002 0 0); max (0.002 0.01 0.01); }
     ocean { phase fluid; shape box; min (0 0 0); max (0.05 0.05 0.05); } }" > system/particleDict
 refused "ice half in the ocean" "Zone ocean lies partly in zone ice, which comes before it, and takes 2e-07 m3 of it" "mayOverlap yes"
@@ -228,7 +228,7 @@ cube 1
 refused "leaky rigid body" "zone pillar" "not closed" "hole at (0.01 "
 echo "walls { type wall; }" > constant/boundary
 
-# Two zones of one file, which both state its unit; touching volumes, with a face each or one in common
+# Two zones from one file, with its unit given twice; volumes that touch, with a face each or a common face
 cat > constant/two.geo <<'END'
 SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 10, 10, 10};
@@ -237,7 +237,7 @@ END
 geo='phase fluid; file "constant/two.geo"; unit mm;'
 dict 'file "constant/two.geo"; unit mm;'
 generateParticles > out 2>&1 && grep -q '^water .* 1500  *+0.00' out || fail "two touching volumes: $(cat out)"
-# a box names the bodies in it, not those that only have a face there
+# a box selects the bodies inside it, not those that only have a face there
 echo "dx 1e-3; placement lattice; zones { water { $geo box ((-1 -1 -1) (0.0101 1 1)); } ice { $geo box ((0.0099 -1 -1) (1 1 1)); } }" > system/particleDict
 generateParticles > out 2>&1 && grep -q '^water .* 1000  *+0.00' out && grep -q '^ice .* 500  *+0.00' out || fail "boxes: $(tail -n 9 out)"
 dict 'file "constant/two.geo"; unit mm;'
@@ -252,7 +252,7 @@ sed -i 's/\(ice.*\)unit mm/\1unit cm/' system/particleDict
 refused "two units of one file" "An earlier zone reads the same file in mm" "ice.unit at line 1"
 dict 'file "constant/two.geo"; unit mm; faces (1 99);'
 refused "no such face" "has no face 99" "1 to 11"
-# In 2D the bodies of a file are cut half-way up, wherever they lie along z
+# In 2D the bodies of a file are cut at half their height, wherever they lie along z
 for z in "0 1" "1 3" "-0.5 0.5"; do
     set -- $z
     cat > constant/hole.geo <<END
@@ -267,7 +267,7 @@ END
 done
 sed -i '/Extrude/d' constant/hole.geo
 refused "flat file in 2D" "hole.geo is flat" "along z"
-# Faces of shapes are named by boxes
+# Faces of shapes are selected by boxes
 echo "walls { type wall; } lid { type wall; }" > constant/boundary
 dict 'shape box; min (0 0 0); max (0.01 0.01 0.01);' 1e-3 'patches { lid { box ((-1 -1 0.0099) (1 1 1)); } }'
 generateParticles > out 2>&1 && [ "$(grep -c "facet normal 0 0 1" constant/triSurface/lid.stl)" = "$(grep -c "facet normal" constant/triSurface/lid.stl)" ] &&
@@ -276,8 +276,8 @@ sed -i 's/0.0099/0.1/' system/particleDict
 refused "no face of a shape" "No face has the box" "chosen by a box"
 echo "walls { type wall; }" > constant/boundary
 
-# Behind a wall that ends at open faces there are as many particles as fit: 3 % fewer, and the fluid beside it
-# would be as much too dense
+# Behind a wall that ends at open faces there are as many particles as fit: with 3 % fewer the fluid beside it would be too
+# dense by the same amount
 echo "walls { type wall; } low { type open; p 0; surface plane; point (0 0 0); normal (0 0 -1); }
     high { type open; p 0; surface plane; point (0 0 0.018); normal (0 0 1); }" > constant/boundary
 echo "dx 1e-3; placement bodyFitted; zones { water { phase fluid; shape cylinder; point1 (0 0 0);
@@ -290,7 +290,7 @@ h5dump -m %.12g -y -w 1 -d /VTKHDF/Points constant/wallParticles.hdf | tr -d ' ,
 rm -rf 0
 echo "walls { type wall; }" > constant/boundary
 
-# One file per part, and a patch of one of them
+# One file per part, and a patch from one of them
 echo "end { type wall; }" >> constant/boundary
 cube
 cat > system/particleDict <<'END'
@@ -303,7 +303,7 @@ generateParticles > out 2>&1 || fail "a patch of one file of two: $(tail -n 8 ou
 sed -i 's/0.0149/0.1/' system/particleDict
 refused "patch in no file" "No face has the box" "cube.stl has 1 faces" "two.geo has 11 faces"
 echo "walls { type wall; }" > constant/boundary
-# A face that is blue, which gmsh also says of faces without a colour
+# A blue face; gmsh reports blue also for faces without a colour
 sed 's/^314,80.000001088,0.,0.,4HRED3; /314,0.,0.,100.,4HBLUE;         /' "$geometry/hccB.igs" > constant/blue.igs
 dict 'file "constant/blue.igs"; colour (1 2 3);' 5e-3
 refused "colour beside blue" "with the colours (0 0 255) "
@@ -313,7 +313,7 @@ refused "IGES without its end" "cut.igs is cut off"
 gmsh -2 -save_all -format msh41 -clmax 3 -o constant/whole.msh constant/two.geo > /dev/null
 dict 'file "constant/whole.msh"; unit mm; group ice;'
 generateParticles > out 2>&1 && grep -q '^water .* 500  *+0.00' out || fail "a mesh file: $(tail -n 8 out)"
-# BREP has no unit: mm are taken, and said, where none is given
+# BREP has no unit: without an entry mm are assumed, with a message
 gmsh -0 -format brep -o constant/whole.brep constant/two.geo > /dev/null
 for unit in "" "unit mm;" "unit cm;"; do
     dict "file \"constant/whole.brep\"; $unit box ((0.0099 -1 -1) (1 1 1));" 1e-3
@@ -321,7 +321,7 @@ for unit in "" "unit mm;" "unit cm;"; do
     generateParticles > out 2>&1 && grep -q '^water .* 500  *+0.00' out || fail "a .brep file, '$unit': $(tail -n 8 out)"
     [ -z "$unit" ] && { grep -q 'whole.brep is read in mm' out || fail "a .brep file: nothing said of its unit"; }
 done
-# two bodies in one file that touch over part of a face, whatever the facets there: the wall around, and none between
+# two bodies in one file that touch over part of a face, with any facets there: the wall is around them, not between them
 echo 'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 10, 10, 10}; Box(2) = {10, 3, 3, 5, 4, 4};' > constant/touching.geo
 { cat constant/touching.geo; echo 'BooleanUnion { Volume{1}; Delete; } { Volume{2}; Delete; }'; } > constant/union.geo
 gmsh -0 -format step -o constant/touching.step constant/touching.geo > /dev/null
@@ -342,7 +342,7 @@ done
 head -c $(($(stat -c %s constant/whole.msh) * 8 / 10)) constant/whole.msh > constant/cut.msh
 dict 'file "constant/cut.msh"; unit mm; group ice;'
 refused "mesh file without its end" "cut.msh is cut off"
-# A pipe into a pot whose bottom is open: beside the pipe a strip would lie behind the pipe's wall
+# A pipe into a pot with an open bottom: a strip beside the pipe would lie behind the pipe's wall
 cp constant/boundary boundary.kept
 echo 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 8, 4}; Cylinder(2) = {0, 0, 8, 0, 0, 6, 10};
 BooleanUnion { Volume{1}; Delete; }{ Volume{2}; Delete; }' > constant/pot.geo

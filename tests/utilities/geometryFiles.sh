@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Geometry files of strangers through generateParticles: units they declare, files that are not what they say,
-# that are cut off, and readers that hang or end the process
+# generateParticles on geometry files of other programs: declared units, files whose content differs from their type,
+# files that are cut off, and readers that hang or end the process
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 . "$(dirname "$0")/../cases/geometryFunctions"
 mkdir tmp
 export TMPDIR=$scratch/tmp
 
-# ---- units: 10 x 10 x 10 in each, the report says which ----------------------------------------------------
+# ---- units: 10 x 10 x 10 of each; the report names the unit ------------------------------------------------
 printf 'SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 10, 10, 10};\n' > constant/cube.geo
 gmsh -0 -format step -o constant/mm.step constant/cube.geo > /dev/null
 sed 's/SI_UNIT(.MILLI.,.METRE.)/SI_UNIT($,.METRE.)/' constant/mm.step > constant/m.stp
@@ -24,7 +24,7 @@ mm.step   1e-3    1e-06
 m.stp     1       1000
 inch.STEP 25.4e-3 0.016387
 END2
-# a unit entry may say the same, but not otherwise
+# a unit entry may repeat the declared unit, but not contradict it
 dict 'file "constant/inch.STEP"; unit inch;' 25.4e-3
 accepted "inch.STEP that is in inch" "STEP in inch, as it declares" "^water  *0.016387  *1000 "
 dict 'file "constant/inch.STEP"; unit mm;'
@@ -51,7 +51,7 @@ done <<'END2'
 1,2HIN 25.4e-3
 END2
 
-# ---- not what its name says -----------------------------------------------------------------------------------
+# ---- content differs from the type ----------------------------------------------------------------------------
 printf 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n' > constant/one.stl
 lies() { # what is in it, its name, then words
     cp "$1" "constant/$2"
@@ -75,7 +75,7 @@ mkfifo constant/pipe.stl
 dict 'file "constant/pipe.stl"; unit mm;'
 refused "a pipe that nobody fills" "pipe.stl is not a file"
 
-# ---- cut off: told at once, wherever --------------------------------------------------------------------------
+# ---- cut off at any place: reported at once -------------------------------------------------------------------
 gmsh -0 -format brep -o constant/whole.brep constant/cube.geo > /dev/null
 cp constant/mm.step constant/whole.step
 cp "$geometry/hccB.igs" constant/whole.igs

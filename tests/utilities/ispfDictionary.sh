@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# ispfDictionary reads and edits a file whose comments and layout must stay
+# ispfDictionary reads and edits a file; its comments and layout must stay
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 cd "$scratch" || exit 1
@@ -24,13 +24,13 @@ mode off;
 // the end
 END
 echo "fromFile 5;" > more
-# gives what options...: what it prints
+# gives what options...: the output must be `what`
 gives() {
     local wanted=$1; shift
     local got; got=$(ispfDictionary original "$@" 2>&1) || fail "$*: $got"
     [ "$got" = "$wanted" ] || fail "$*: '$got', not '$wanted'"
 }
-# refuses text options...: an error that says so, and the file stays
+# refuses text options...: an error with this text; the file stays
 refuses() {
     local wanted=$1; shift
     cp original before
@@ -38,7 +38,7 @@ refuses() {
     grep -q -- "$wanted" log || fail "$*: $(cat log)"
     cmp -s original before || fail "$* touched the file"
 }
-# edits lines options...: the file differs from the original in these lines alone (as diff counts)
+# edits lines options...: the file must differ from the original only in these lines (in the form of diff)
 edits() {
     local wanted=$1; shift
     cp original before
@@ -66,7 +66,7 @@ edits "$(printf '< endTime   1;   // [s] stays\n> endTime   2;   // [s] stays')"
 edits "$(printf '<     U     { tolerance 1e-5; relTol 0.1; }\n>     U     { tolerance 1e-5; relTol 0; }')" -entry solvers.U.relTol -set 0
 edits "$(printf '< copy { $base; b 2; }\n> copy { $base; b 2;\n>     a               7;\n> }')" -entry copy.a -set 7
 edits "> fromFile        6;" -entry fromFile -set 6
-edits "> mode            slow;" -entry mode -set slow  # which of the two counts is for the #if to say
+edits "> mode            slow;" -entry mode -set slow  # the #if decides which of the two counts
 edits "< base { a 1; }" -entry base -remove
 edits "$(printf '> new\n> {\n>     key             (1 2 3);\n> }')" -entry new.key -add "(1 2 3)"
 refuses "already" -entry endTime -add 3
@@ -95,7 +95,7 @@ printf 'a 2 [min];\nb $a;\nc (1 2);\n' > units
 ispfDictionary units -entry c -SI > log 2>&1 && fail "-SI of a list"
 [ "$(ispfDictionary headed -entry FoamFile | tr -s ' \n' ' ')" = "FoamFile { version 2.0; class dictionary; } " ] || fail "the header: $(ispfDictionary headed -entry FoamFile 2>&1)"
 [ "$(ispfDictionary headed -entry FoamFile.class -value)" = dictionary ] || fail "of the header: $(ispfDictionary headed -entry FoamFile.class -value 2>&1)"
-# the header is edited like any dictionary, and stands first where there was none
+# the header is edited like any dictionary; a new header goes to the front
 header() { # what it then is, arguments
     local wanted=$1; shift
     ispfDictionary edited "$@" > log 2>&1 || fail "$*: $(cat log)"
@@ -113,7 +113,7 @@ printf '// remark\na 1;\n' > edited
 header '// remark FoamFile { object foo; } a 1;' -entry FoamFile.object -set foo
 ispfDictionary edited -entry FoamFile.format -set runes > log 2>&1 && fail "format runes is accepted"
 grep -q "ascii binary" log || fail "no valid formats are listed: $(cat log)"
-# lines of a file that end with CR LF go on to do so
+# lines that end with CR LF keep this end
 printf 'FoamFile\r\n{\r\n    version 2.0;\r\n}\r\na { b 1; } // c\r\nd 2; // e\r\n' > dos
 dos() {
     cp dos edited; ispfDictionary edited "$@" > log 2>&1 || fail "CR LF, $*: $(cat log)"
@@ -126,7 +126,7 @@ dos -entry d -remove
 dos -entry FoamFile.object -set foo
 dos -entry k -set $'{\n l 1;\n m 2;\n}'
 [ -z "$(ispfDictionary original -diff original)" ] || fail "-diff of a file and itself"
-# an edit is of its own entry, not of a pattern that matches it, and of all parts of a dictionary
+# an edit changes its own entry, not a pattern that matches it, and all parts of a dictionary
 cat > patterns <<'END'
 solvers { "(U|p)" { tol 1; } p { $U; rel 2; } }
 ".*" { type none; }
@@ -146,7 +146,7 @@ pattern 'solvers { "(U|p)" { tol 1; } p { $U; rel 2; } } ".*" { type none; } wal
 pattern 'solvers { "(U|p)" { tol 1; } p { $U; rel 2; } } ".*" { type none; } walls {x 1;}' -entry walls -set '{x 1;}'
 cp patterns edited; ispfDictionary edited -entry walls.velocity -remove > log 2>&1 && fail "removed what is not there"
 cmp -s patterns edited || fail "removed what a pattern matches: $(cat edited)"
-# and not below a pattern, which would change all that it stands for (foamDictionary refuses these likewise)
+# no edit below a pattern, which would change all entries that it matches (foamDictionary refuses it too)
 printf '"U.*" { tol 1; }\nUy { tol 7; }\n"k.*" 1;\n' > patterns
 for wrong in "Ux.tol -set 5" "Ux.new -add 5" "Ux.tol -remove" "Ux.sub.tol -set 5"; do
     cp patterns edited
@@ -162,7 +162,7 @@ echo '"(a|b)" { t 1; }' > patterns
 pattern '"(a|b)" { t 4; }' -entry '(a|b).t' -set 4
 echo '".*" { a 1; }' > patterns
 pattern 'FoamFile { object foo; } ".*" { a 1; }' -entry FoamFile.object -set foo
-# what an included file holds is set beside a pattern that matches it
+# an entry of an included file is set beside a pattern that matches it
 echo 'solvers { p { tol 1; } }' > incf
 through() {
     printf '#include "incf"\n"s.*" { any 1; }\n' > edited
@@ -175,7 +175,7 @@ through 'solvers { p {tol 7;} }' -entry solvers.p -set '{tol 7;}'
 through 'solvers { U { tol 7; } }' -entry solvers.U.tol -add 7
 gone() { ispfDictionary edited "$@" > log 2>&1 && fail "$*, which no program finds: $(cat log)"; }
 gone -entry solvers.any; gone -entry solvers.V.any  # an exact key hides the pattern
-# parts of dictionaries and files of other kinds, as foamDictionary reads them
+# parts of dictionaries and files of other kinds are read as foamDictionary reads them
 cat > boundary <<'END'
 FoamFile { version 2.0; format ascii; class polyBoundaryMesh; object boundary; }
 // patches
@@ -211,7 +211,7 @@ ln -s original link && ispfDictionary link -entry endTime -set 3 > log
 timeout 20 ispfDictionary /dev/zero -expand > log 2>&1 && fail "/dev/zero is read"
 grep -q "Cannot read /dev/zero: it is a device" log || fail "/dev/zero: $(tail -n 5 log)"
 [ "$(ispfDictionary <(echo 'a 1;') -entry a -value)" = 1 ] || fail "a pipe of the shell"
-# the mode of a file stays
+# the mode of a file is kept
 echo 'endTime   1;' > modes
 for mode in 600 640 444 755; do
     chmod $mode modes
@@ -219,7 +219,7 @@ for mode in 600 640 444 755; do
     [ "$(stat -c %a modes)" = $mode ] && grep -q "endTime   $mode;" modes || fail "mode $mode has become $(stat -c %a modes)"
 done
 (umask 027 && ispfDictionary modes -entry endTime -set 1 > log && [ "$(stat -c %a modes)" = 755 ]) || fail "mode under umask 027: $(stat -c %a modes)"
-# what cannot be written is an error of its own, and stops nothing
+# a file that cannot be written is an error of its own and stops nothing else
 for options in "original" "original -expand" "original -entry endTime" "original -keywords" "-help" "modes -entry endTime -set 9"; do
     # shellcheck disable=SC2086
     ispfDictionary $options > /dev/full 2> log && fail "$options: lost without a word"

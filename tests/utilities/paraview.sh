@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# ParaView, where it is installed, opens particles.hdf.series: every time, every particle, its pressure
+# If ParaView is installed, it opens particles.hdf.series: every time, every particle, its pressure
 set -uo pipefail
 command -v pvpython > /dev/null || { echo "  ParaView is not installed (bin/installDependencies docs)"; exit 77; }
 . "$(dirname "$0")/../cases/functions"

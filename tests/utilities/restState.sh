@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# A solid placed in another shape than that in which it rests: what generateParticles writes of it, what it refuses, and
-# that a run goes on from a state of it as if it had not stopped
+# A solid placed in another shape than its shape at rest: the files that generateParticles writes, the maps that it refuses,
+# and a run that continues from such a state as if it had not stopped
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 
@@ -12,7 +12,7 @@ setEntry $dict dx 0.4e-3
 place
 columns() { h5dump -m %.12g -y -w 1 -d "/VTKHDF/PointData/$1" 0/particles.hdf | sed '/ATTRIBUTE/,$d' | tr -d ' ,' | grep -E '^[-0-9.e+]+$'; }
 columns x0 | paste - - - > x0; columns zone > zone
-# between circles of 5 and 8 mm, half a particle off; fluid rests nowhere
+# between circles of 5 and 8 mm, half a particle off; fluid has no rest state
 paste x0 zone | awk '$4 == 1 { bad = bad || $1 || $2 || $3; next } { r = sqrt($1^2 + $2^2); ++n; bad = bad || r < 5.1e-3 || r > 7.9e-3 || $3 }
     END { exit bad || n < 150 }' || fail "rest positions: $(head -n 3 x0)"
 awk '/vertex/ { r = sqrt($2^2 + $3^2); ++n; bad = bad || r < 4.98e-3 || r > 5.02e-3 } END { exit bad || n < 30 }' \

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The spring network's own law (bin/tools/springNetwork.py): its small strains are Lame's thick walls, its integral is
-# right for what is known in closed form, its lattice sums are the moduli that calibrateSprings measures
+# The law of the spring network (bin/tools/springNetwork.py): small strains give Lame's thick walls, its integral
+# agrees with closed forms, and its lattice sums are the moduli that calibrateSprings measures
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
 
@@ -36,14 +36,14 @@ def energy(l, m, n=2000):     # 4 G <(|F n| - 1)^2> of directions in the plane, 
 for l in (0.8, 1.3):          # far from rest
     for m in (2, 3):
         check(f"slope m={m}", law.networkSlope(l, m), (energy(l + 1e-4, m) - energy(l - 1e-4, m)) / 2e-4, 1e-4)
-# known: K/dx and 1 for 18 links of the cubic lattice, E/3 = K/dx; the square lattice's 8 links K/2
+# known values: K/dx and 1 for 18 links of the cubic lattice, E/3 = K/dx; K/2 for the square lattice's 8 links
 check("lattice18", law.isotropicShear(law.ruleLinks("lattice18", 3), 3), 1.0, 1e-12)
 check("lattice8", law.isotropicShear(law.ruleLinks("lattice8", 2), 2), 0.5, 1e-12)
 check("26 links", len(law.ruleLinks("radius", 3, 3**0.5)), 26, 0)
 sys.exit(failures > 0)
 EOF
 
-# what the solver's library says of the same links, k = k_e h
+# values of the solver's library for the same links, k = k_e h
 for rule in "lattice8;" "radius; radius 1.5;"; do
     newCase membrane "k_e${rule//[^a-z0-9]/}"; place
     echo "structureModel springNetwork; k_e 1e4; links $rule" > constant/structureProperties

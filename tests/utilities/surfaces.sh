@@ -22,7 +22,7 @@ stl() {
         print "endloop\nendfacet" } END { print "endsolid", name }'
 }
 facetsOf() { awk '/^ *vertex/ { printf "%s %s %s%s", $2, $3, $4, ++n % 3 ? " " : "\n" }' "$1"; }
-# in another order, every second facet turned, begun at another corner
+# the same facets in another order; every second one is turned and begins at another corner
 shuffled() { awk -v seed="$1" 'BEGIN { srand(seed) } { print rand(), $0 }' | sort -g | awk '{ k = NR % 3
     for (i = 0; i < 3; ++i) for (j = 0; j < 3; ++j) c[i, j] = $(2 + 3*i + j)
     s = NR % 2 ? 1 : 2; line = ""
@@ -106,7 +106,7 @@ for placement in lattice bodyFitted; do
 done
 
 # ---- vessels with open ends ----------------------------------------------------------------------------------------------
-# vessel name, script: its surface without the faces named in ends(), as STL
+# vessel name, script: writes its surface without the faces named in ends(), as STL
 vessel() {
     printf 'SetFactory("OpenCASCADE"); %s\n' "$2" > "constant/$1.geo"
     { cat "constant/$1.geo"; echo 's() = Surface{:}; s() -= ends(); Physical Surface("vessel") = s();'; } > "$1.geo"
@@ -114,7 +114,7 @@ vessel() {
 }
 # within $1 to $2 percent of $3 m3
 volumeIs() { awk -v v="$3" -v lo="$1" -v hi="$2" '/^water / { off = 100*($2/v - 1) } END { exit !(off > lo && off < hi) }' out || fail "$4: $(grep '^water ' out), not $3 m3"; }
-steps() { # what: five steps from the particles made, fluid enters and leaves through the caps
+steps() { # what: takes five steps from the particles made; fluid enters and leaves through the caps
     echo "coupling projection;" > system/sphSolution; : > system/sphSchemes
     echo "rho 1000; mu 4e-3;" > constant/physicalProperties
     echo "startTime 0; endTime 5e-3; deltaT 1e-3; writeControl timeStep; writeInterval 5;" > system/controlDict

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# VTK's own reader, where it is installed, opens the particles of writeFormat ascii: every time, every particle, its
+# If VTK is installed, its own reader opens the particles of writeFormat ascii: every time, every particle, its
 # pressure
 set -uo pipefail
 python=""
@@ -32,7 +32,7 @@ for time in $(ls -d 0.* | sort -g); do
         END { printf "%.6g %d 3 %.9g %.9g\n", time, n, low, high }' "$time/p"
 done > written
 [ "$(wc -l < seen)" -gt 1 ] || fail "VTK sees $(wc -l < seen) times"
-# pressures have six digits there
+# pressures have six digits in this file
 paste written seen | awk 'function near(a, b) { return (a - b)^2 <= (5e-6*a)^2 }
     NF != 10 || $1 != $6 || $2 != $7 || $3 != $8 || !near($4, $9) || !near($5, $10) { bad = 1; print } END { exit bad }' ||
     fail "VTK (right) sees other particles than were written (left)"

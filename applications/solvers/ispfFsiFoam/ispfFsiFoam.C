@@ -14,7 +14,7 @@ namespace
 constexpr scalar smallestStep = 1e-6;  // of deltaT
 constexpr scalar mostCellReynolds = 100;
 
-// The step the user asked for, within what the scheme admits
+// The step that the user asks for; with adjustTimeStep at most the limit of the scheme
 scalar chooseDeltaT(const Time& time, const couplingScheme::stepLimit& limit)
 {
     const dictionary& control = time.controlDict();
@@ -37,7 +37,7 @@ scalar chooseDeltaT(const Time& time, const couplingScheme::stepLimit& limit)
     return asked;
 }
 
-// U dx/nu: beyond it viscosity does not resolve what is a few dx wide; no energy is gained, doc/theory 8
+// True for a large U dx/nu: viscosity then does not resolve structures of a few dx.  No energy is gained, doc/theory 8
 bool isUnresolved(const fsiCase& c)
 {
     if (c.cloud.nSolid() == c.cloud.n()) return false;
@@ -51,7 +51,7 @@ bool isUnresolved(const fsiCase& c)
     return true;
 }
 
-// Takes a step from the present time, a shorter one if the scheme asks for it; the rule that has chosen its length
+// Takes a step from the present time, shorter if the scheme asks for it.  Returns the rule that has limited its length
 word advance(Time& time, couplingScheme& coupling)
 {
     const couplingScheme::stepLimit limit = coupling.limit();
@@ -74,7 +74,7 @@ void timeLoop(Time& time, fsiCase& c, couplingScheme& coupling, volumeLedger& le
               functionObjectList& functions)
 {
     progress bar(time);
-    bool unresolved = false;  // once is enough to say so
+    bool unresolved = false;  // the warning is printed once
     functions.start();
     while (time.run())
     {

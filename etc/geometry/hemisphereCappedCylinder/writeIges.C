@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws the hemisphere-capped cylinder benchmark and writes it as IGES (needs OpenCASCADE; the
-// solver and its utilities do not).  Usage: writeIges A|B arc|ellipse file.igs
+// Draws the hemisphere-capped cylinder benchmark and writes it as IGES.  Needs OpenCASCADE, which the
+// solver and its utilities do not need.  Usage: writeIges A|B arc|ellipse file.igs
 //
 // Axis z, base plane of the elastic chamber at z = 0, lengths in mm.  Four solids of revolution
 // that touch without gap, as BRep solids (IGES entity 186):
@@ -10,8 +10,8 @@
 //     chamber  fluid: lumen, nozzle bore, syringe           blue; plunger face orange
 //     buffer   fluid around the chamber                     light blue; open faces green
 //
-// What is outside of all four is rigid: syringe, nozzle, base plate.  Colours are what survives in
-// every CAD program; generateParticles selects zones and patches by them.
+// The space outside of all four is rigid: syringe, nozzle, base plate.  Every CAD program keeps
+// colours; generateParticles selects zones and patches by them.
 //
 // S: stated in the paper, D: deduced from its numbers, A: assumed.
 #include <BRepBuilderAPI_MakeEdge.hxx>
@@ -59,9 +59,9 @@ struct dimensions
     double nozzleDepth = 5;       // A  straight bore below the base, then a step to the syringe
     double syringeRadius = 8;     // S
     double syringeLength = 17.4;  // D  from the step to the plunger at bottom dead centre
-    // The volume is deduced (particles left over when the wall is subtracted), the shape assumed: a
-    // ring as thick as the wall that reaches inward under the wall, because only there can it hold
-    // it
+    // The volume is deduced (the particles that remain when the wall is subtracted).  The shape is
+    // assumed: a ring as thick as the wall that extends inward under the wall, because only there it
+    // can hold the wall
     double flangeThickness = 2;  // A
     double flangeRadius = 14.3;  // D  654 mm3
     double bufferRadius = 15;    // D
@@ -82,7 +82,7 @@ dimensions variant(const std::string& name)
     return d;
 }
 
-// The nozzle with another bore, as thick: nothing says how wide it is
+// The nozzle with another bore and the same thickness: the paper does not state its width
 void changeBore(dimensions& d, double diameter)
 {
     const double thickness = d.nozzleOuter - d.nozzleBore;
@@ -99,14 +99,14 @@ class outline
 public:
     outline(double r, double z) : start_(r, 0, z), at_(start_) {}
 
-    // role: the colour of the face that the edge sweeps, if not the solid's
+    // role: colour of the face that the edge sweeps, if it is not that of the solid
     outline& line(double r, double z, const std::string& role = "")
     {
         const gp_Pnt to(r, 0, z);
         return add(BRepBuilderAPI_MakeEdge(at_, to), to, role);
     }
-    // Conic through the present and the given end, whose end tangents meet at `tangents`: an exact
-    // rational quadratic.  Middle weight: the cosine of half the angle, also of a squeezed circle
+    // Adds a conic from the present end to the given end.  Its end tangents meet at `tangents`: an exact
+    // rational quadratic.  Middle weight: the cosine of half the angle, also for a squeezed circle
     outline& conic(const gp_Pnt& tangents, double r, double z, double weight)
     {
         const gp_Pnt to(r, 0, z);
@@ -126,7 +126,8 @@ public:
     struct solid
     {
         TopoDS_Shape shape;
-        std::vector<std::pair<gp_Pnt, std::string>> roles;  // of the face through that point
+        // roles of the faces through these points
+        std::vector<std::pair<gp_Pnt, std::string>> roles;
     };
     solid revolve() const
     {
@@ -150,7 +151,7 @@ private:
     std::vector<std::pair<gp_Pnt, std::string>> roles_;
 };
 
-// The dome's outer outline as a conic: where its end tangents meet, and its middle weight
+// The dome's outer outline as a conic: the point where its end tangents meet, and its middle weight
 struct dome
 {
     gp_Pnt tangents;
@@ -223,7 +224,7 @@ outline::solid buffer(const dimensions& d, const dome& outer)
         .revolve();
 }
 
-// Percentages that survive IGES exactly
+// Percentages that IGES keeps exactly
 Quantity_Color colourOf(const std::string& role)
 {
     const auto rgb = [](double r, double g, double b) {
@@ -260,7 +261,7 @@ void add(const Handle(TDocStd_Document) & document, const outline::solid& s,
     std::cout << name << " " << mass.Mass() << " mm3\n";
 }
 
-// The same bytes whoever writes, and whenever
+// Sets author and time, so that the bytes are always the same
 void scrub(const Handle(IGESData_IGESModel) & model, const std::string& name)
 {
     const auto text = [](const char* s) { return new TCollection_HAsciiString(s); };

@@ -46,7 +46,8 @@ inflow::inflow(const dictionary& dict, const word& caseFolder, const place& at)
     setProfile(dict, caseFolder, at);
 }
 
-// Is it a vector?  Whatever is no number over time is read as one; its direction is that of its largest part
+// True if the velocity is a vector: whatever is not a number over time is read as a vector.  Its largest part gives the
+// direction
 bool inflow::readVelocity(const dictionary& dict, const word& caseFolder)
 {
     try
@@ -74,12 +75,12 @@ bool inflow::readVelocity(const dictionary& dict, const word& caseFolder)
     for (const vector& v : parts)
         if (v.cross(direction_).norm() > 1e-9 * direction_.squaredNorm())
             dict.fail("velocity",
-                      "The velocity's direction changes over time, which that of an open face "
-                      "cannot: what enters is laid out along it");
+                      "The direction of the velocity changes over time. At an open face it must "
+                      "be constant: new particles are placed along it");
     return true;
 }
 
-// Scaled to a unit component into the fluid
+// Scales the direction to a normal component of one into the fluid
 void inflow::setDirection(const dictionary& dict, const word& key, const vector& normal)
 {
     const scalar in = -direction_.dot(normal);
@@ -117,7 +118,7 @@ void inflow::setProfile(const dictionary& dict, const word& caseFolder, const pl
     most_ *= *std::max_element(profile_.begin(), profile_.end());
 }
 
-// Linear finite elements on the face's triangles; the natural condition where nothing holds the fluid
+// Solves with linear finite elements on the triangles of the face; natural condition where no wall holds the fluid
 void inflow::parabolic(const List<char>& held)
 {
     const triSurface& s = face_.surface();

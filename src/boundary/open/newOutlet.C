@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The kinds of outlets that there are.  A new one adds its two lines here
+// The list of outlet kinds.  A new kind adds its two lines here
 #include "outlet.H"
 
 namespace ispf

@@ -10,7 +10,7 @@ namespace ispf
 namespace
 {
 
-// Flow that counts as small [dx of the face's area per step], and fluid that answers to a pressure at least [dx]
+// slowest: a small flow [dx of the face's area per step].  inertia: length of fluid that a pressure moves at least [dx]
 constexpr scalar slowest = 0.01, inertia = 10;
 
 }  // namespace
@@ -46,7 +46,8 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
     images_ = s.group.symmetryFactor();
     if (inflow::given(dict))
     {
-        for (const word key : {"backflow", "outlet"}) dict.found(key);  // may stay when p goes
+        // they may stay when the entry p goes
+        for (const word key : {"backflow", "outlet"}) dict.found(key);
         inflow_ = std::make_unique<inflow>(
             dict, caseFolder,
             inflow::place{mesh_, s.isHeld, images_, outward,
@@ -63,7 +64,7 @@ void openFace::setStep(scalar t0, scalar t1, scalar pressures)
     if (inflow_) inflow_->setStep(t0, t1);
 }
 
-// - sum V r_i of (4.4) over the strip
+// Flow out of the face: - sum V r_i of (4.4) over the strip
 scalar openFace::outflow(const particleCloud& cloud) const
 {
     scalar sum = 0;
@@ -91,8 +92,8 @@ scalar openFace::weight(scalar q)
     return q < 1 ? a * a : 0;
 }
 
-// The feet of all particles are asked for several times a step: looked up again only where another particle
-// is, or has moved
+// Finds the foot of each particle.  Called several times a step, so it searches only where a particle has moved
+// or another one has its index
 void openFace::findFeet(const particleCloud& cloud) const
 {
     constexpr scalar nowhere = std::numeric_limits<scalar>::quiet_NaN();
@@ -107,7 +108,7 @@ void openFace::findFeet(const particleCloud& cloud) const
 bool openFace::beyondStrip(const vector& x) const
 {
     const surfaceFoot f = surface_->find(x);
-    return f.found && f.aside == 0 && f.depth > depth_;  // beside its rim the face does not tell
+    return f.found && f.aside == 0 && f.depth > depth_;  // beside the rim the face says nothing
 }
 
 bool openFace::near(label i) const

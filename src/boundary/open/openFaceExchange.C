@@ -15,11 +15,12 @@ namespace
 constexpr scalar closest = 0.75;   // [dx] no particle is put nearer than this to another one
 constexpr scalar offWalls = 0.35;  // [dx] nor nearer than this to a wall
 constexpr scalar missingHere = 0.25, missingAround = 0.5;  // particles, see openFace.H
-constexpr scalar widest = 1.4;  // [dx] a hole of this radius is filled even if none is missing
+// [dx] a hole of this radius is filled even if no particle is missing
+constexpr scalar widest = 1.4;
 
 }  // namespace
 
-// What lies near the face now
+// The particles near the face at present
 struct openFace::census
 {
     const particleCloud& cloud;
@@ -27,8 +28,8 @@ struct openFace::census
     openLayer::deficit before;
     pointGrid particles;  // all, from 1.5 dx before the face
     List<label> index;    // of the particles in the cloud
-    pointGrid entered;    // feet of those that came in through the surface in this step
-    List<scalar> beyond;  // how far they have come
+    pointGrid entered;    // feet of the particles that came in through the surface in this step
+    List<scalar> beyond;  // how far they are beyond the surface
 
     census(const particleCloud& c, const openLayer& layer, scalar region)
         : cloud(c),
@@ -39,7 +40,7 @@ struct openFace::census
     {
     }
 
-    // share(j, weight) for the fluid of a zone within 1.5 dx of x; weights of sum one
+    // Calls share(j, weight) for the fluid of a zone within 1.5 dx of x; the sum of the weights is one
     template <class Share>
     void around(const vector& x, std::uint8_t zone, Share&& share) const
     {
@@ -83,7 +84,7 @@ openFace::census openFace::count(const particleCloud& cloud) const
     return c;
 }
 
-// The samples of the strip that moving walls have passed over or stand in: none is missing there
+// Per sample of the strip: 1 if a moving wall stands in it or has passed over it; no particle is missing there
 List<char> openFace::passedOver(const movingWalls& walls) const
 {
     List<char> over(samples_.size(), 0);
@@ -97,8 +98,8 @@ List<char> openFace::passedOver(const movingWalls& walls) const
     return over;
 }
 
-// Spots whose nearest particle is about a spacing away come first: new particles then close up like
-// a lattice, where the largest holes first would leave gaps too narrow to fill
+// Chooses spots for new particles.  Spots whose nearest particle is about a spacing away come first: new particles then
+// close up like a lattice.  With the largest holes first the gaps left would be too narrow to fill
 List<label> openFace::choose(const census& c, const movingWalls& walls) const
 {
     using candidate = std::tuple<scalar, label, scalar>;  // misfit, spot, its hole at that time
@@ -115,14 +116,14 @@ List<label> openFace::choose(const census& c, const movingWalls& walls) const
     const List<char> over = passedOver(walls);
     for (size_t k = 0; k < samples_.size(); ++k)
         if (over[k]) passed.add(samples_[k].foot);
-    // what lacks in the layer lacks here in the proportion of the radii: counted within the smaller one it
-    // would be mostly chance
+    // the deficit of the layer is counted within the larger radius and scaled by the radii: within the smaller radius
+    // it would be mostly chance
     const scalar counted = std::hypot(region_, openLayer::depth * dx_);
     const scalar hereOfRegion = std::pow(near_ / region_, c.cloud.nDims - 1);
     const auto before = [&](const vector& at) {
         return walls.near(at, counted) ? 0 : c.before.sum(at, region_, weight);
     };
-    // a spot is of use if there is room, and particles are missing or the hole may become a wide one
+    // a spot is useful if it has room and particles are missing, or if its hole may become a wide one
     const label n = label(spots_.size());
     List<scalar> hole(n), missingNear(n), missingRegion(n);
     parallelFor(
@@ -177,8 +178,8 @@ List<label> openFace::choose(const census& c, const movingWalls& walls) const
     return chosen;
 }
 
-// A particle that left the strip through the surface is so far beyond it; the one that takes its
-// place has come as far from the outer end, else whole layers would lose up to a step each
+// How far a new particle starts inside the outer end: as far as the particle that left the strip has moved beyond the
+// surface.  Without this, whole layers would lose up to one step each
 scalar openFace::lag(const census& c, const spot& at) const
 {
     scalar sum = 0, weights = 0;
@@ -188,8 +189,8 @@ scalar openFace::lag(const census& c, const spot& at) const
     return weights > 0 ? sum / weights : 0;
 }
 
-// All fields of a newcomer are the weighted mean of its zone's particles within 1.5 dx, integers
-// those of the nearest
+// Appends the new particles.  Each field is the weighted mean over its zone's particles within 1.5 dx; integers are
+// those of the nearest particle
 void openFace::insert(particleCloud& cloud, const census& c, const List<label>& chosen) const
 {
     const label before = cloud.n();

@@ -11,7 +11,7 @@ namespace ispf
 namespace
 {
 
-// Two unit vectors across n; in two dimensions one in the plane
+// Two unit vectors across n; in two dimensions one vector in the plane
 List<vector> tangents(const vector& n, int nDims)
 {
     if (nDims == 2) return {vector(-n[1], n[0], 0).normalized()};
@@ -21,8 +21,8 @@ List<vector> tangents(const vector& n, int nDims)
 
 }  // namespace
 
-// Sample points that fill the strip: what a full strip weighs, however the sites lie in it.  Returns their feet.
-// Beside the surface's rim the strip reaches as far as there are sites.
+// Makes sample points that fill the strip: they give the sums of a full strip, wherever the sites lie.  Returns their feet.
+// Beside the rim of the surface the strip reaches as far as there are sites.
 pointGrid openFace::sampleStrip(const List<vector>& sites, int nDims, const place& allowed)
 {
     pointGrid known(dx_), feet(region_);
@@ -95,7 +95,7 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
         const std::uint8_t zone = cloud.zone[cloud.nSolid() + nearest];
         const auto area = areas_.try_emplace(zone, vector::Zero()).first;
         area->second += cloud.volume() / depth_ * feet[k].normal;
-        // sites of the outermost layer give way to places at the outer end
+        // sites of the outermost layer are replaced by places at the outer end
         if (feet[k].depth < depth_ - 0.75 * dx_) addSpot(kept[k], feet[k], zone, full);
         addOuterSpots(feet[k], zone, cloud.nDims, {full, taken, allowed});
     }
@@ -103,8 +103,8 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
     checkOuterEnd(feet, taken, cloud.nDims);
 }
 
-// New particles are put at the strip's outer end.  A wall is continued past the rim, and where an opening lies flush in a curved
-// wall it covers that end as a whole: nothing could enter
+// fatalError if no particle can be put at the outer end of the strip.  A wall continues past the rim; if an opening lies
+// flush in a curved wall, the wall covers the whole outer end, and nothing could enter
 void openFace::checkOuterEnd(const List<surfaceFoot>& feet, const pointGrid& places,
                              int nDims) const
 {
@@ -120,7 +120,7 @@ void openFace::checkOuterEnd(const List<surfaceFoot>& feet, const pointGrid& pla
         where_);
 }
 
-// A solid that holds the fluid before the face has to hold that in the strip, too
+// A solid that holds the fluid before the face must also hold the fluid in the strip
 void openFace::checkRim(const List<vector>& sites, const particleCloud& cloud) const
 {
     const scalar beside = 1.2 * dx_, near = 2 * dx_;  // of the fluid before the face, of the site

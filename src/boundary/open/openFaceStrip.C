@@ -14,21 +14,21 @@ namespace ispf
 namespace
 {
 
-// Slope of the pressure before the face, along its normal, less that of the body force [Pa/m]: a field of the
-// particles near the face
+// Field of the particles near the face: slope of the pressure before the face along its normal, less that of the body
+// force [Pa/m]
 const word slopeField = "openSlope";
-// [dx] The acceleration is that of so many layers before the surface, friction begins so far before it; both are means
-// so far along it.  Nearer, the velocity is bent into the strip's, which is uniform along normals: that has no friction
-// but its own
+// [dx] The acceleration is a mean over `layers` before the surface, the friction a mean from the depth `from` on; both
+// within the radius `around` along the surface.  Nearer to the surface the velocity bends into that of the strip, which is
+// uniform along normals and has only its own friction
 constexpr scalar layers = 3, from = 2.5, around = 4;
 
-// Weighted mean over the fluid of one zone, or over all where there is none of it (other zones may lie behind a wall)
+// Weighted mean over the fluid of one zone; over all zones if there is none of it (other zones may lie behind a wall)
 template <class T>
 class weightedMean
 {
 public:
     void add(const T& value, scalar w, bool own) { sum_[own] += w * value, weight_[own] += w; }
-    void get(T& mean) const  // leaves it as it is where there is no fluid
+    void get(T& mean) const  // leaves `mean` unchanged where there is no fluid
     {
         const bool own = weight_[1] > 0;
         if (weight_[own] > 0) mean = sum_[own] / weight_[own];
@@ -86,7 +86,7 @@ void openFace::setVelocity(particleCloud& cloud, label number) const
     for (const scalar q : givenFlux(cloud)) flux_ -= q;
 }
 
-// The area of a face is the share of the strip's samples over which no moving wall has passed
+// Only the share of the strip's samples over which no moving wall has passed counts in the area of a face
 void openFace::setStrip(particleCloud& cloud, const movingWalls& walls) const
 {
     firstStrip_ = label(cloud.stripArea.size());
@@ -107,7 +107,7 @@ word openFace::widthInWords(int nDims) const
     return "; the face is " + str(wide / dx_, 3) + " dx wide";
 }
 
-// Without fluid beyond the face nothing would enter or leave, and no one would be told
+// fatalError if the velocity is not zero and the strip is empty: nothing would enter or leave, without a message
 void openFace::checkFilled(const particleCloud& cloud) const
 {
     if (inflow_->mean() == 0) return;
@@ -145,15 +145,15 @@ List<scalar> openFace::givenFlux(const particleCloud& cloud) const
             const scalar q = -cloud.volume() / depth_ * cloud.Up[i].xyz().dot(f.normal);
             perZone[cloud.zone[i]] += q, all += q;
         }
-    // what the strip's particles, as many as they happen to be, carry together is known
+    // the sum over the strip is known, whatever the number of its particles
     for (scalar& q : perZone)
         if (!mesh_.empty() && all != 0) q *= inflow_->mean() * mesh_.area() / all;
     return perZone;
 }
 
-// Velocity or pressure of the fluid close before the surface, by feet on it: a mean, and the mean of what it missed (twicing, Tukey
-// 1977, Exploratory Data Analysis).  Alone a mean is too fast beside walls, and the strip carries 1 to 2 %
-// more than the fluid before it: the one thins out, the other thickens
+// Velocity or pressure of the fluid just before the surface, as a mean by feet, plus the mean of its errors (twicing,
+// Tukey 1977, Exploratory Data Analysis).  The mean alone is too fast beside walls: the strip would carry 1 to 2 %
+// more than the fluid before it, so that one thins out and the other thickens
 struct openFace::valueBefore
 {
     const particleCloud& cloud;
@@ -195,12 +195,11 @@ struct openFace::valueBefore
     }
 };
 
-// What tells the slope of the pressure, summed over the fluid whose feet share a square of dx
+// Data for the slope of the pressure, summed over the fluid whose feet share a square of dx
 struct openFace::slopeBefore
 {
-    using sums =
-        Eigen::Matrix<scalar, 8,
-                      1>;  // 1, acceleration of near fluid; 1, friction of that further before
+    // 1, acceleration of the near fluid; 1, friction of the fluid further before
+    using sums = Eigen::Matrix<scalar, 8, 1>;
     struct bin
     {
         scalar n = 0;
@@ -236,8 +235,8 @@ struct openFace::slopeBefore
         for (auto& [cell, b] : squares) feet.add(b.foot / b.n), bins.push_back(b);
     }
 
-    // friction_n - rho a_n.  Where the velocity is given the pressure has to learn of the acceleration from it: friction
-    // alone, or the strip would run after the fluid before it
+    // friction_n - rho a_n.  Where the velocity is given, friction alone: the pressure must follow the acceleration, else
+    // the strip would run after the fluid before it
     scalar at(const surfaceFoot& f, std::uint8_t zone) const
     {
         weightedMean<sums> sum;
@@ -254,10 +253,9 @@ struct openFace::slopeBefore
     }
 };
 
-// Walls apart, fluid beyond a given velocity has the pressure before the surface: it is told, and has no effect.
-// The slope of the pressure is carried on, and, where that is given, the strip takes the velocity before the
-// surface, averaged over 1.5 dx along it.  Over a wider reach the flow along the surface would run into a wall or
-// away from it: nothing in the strip holds it back
+// Carries the slope of the pressure on to the strip.  Where p is given, the strip takes the velocity before the surface,
+// averaged over 1.5 dx along it.  With a wider mean the flow along the surface would run into a wall or away from it:
+// nothing in the strip holds it back.  Where the velocity is given, the strip takes p before the surface, without effect
 void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, scalar rho,
                             scalar dt) const
 {

@@ -15,7 +15,7 @@ openLayer::cellIndex openLayer::indexOf(const vector& x) const
     return c;
 }
 
-// Smooth at both ends: layers of particles must not count at once
+// Part of cell c that is in the layer; smooth at both ends, so that layers of particles do not count all at once
 scalar openLayer::share(const cell& c, const vector& x, vector& foot) const
 {
     const scalar beyond = c.depth + (x - c.centre).dot(c.normal);

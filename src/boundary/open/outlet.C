@@ -9,12 +9,12 @@ namespace ispf
 namespace
 {
 
-// Share of the flow, and of a small flow, within which the step's flow is that of (4.11)
+// Largest difference between the step's flow and that of (4.11), over |Q| plus the small flow
 constexpr scalar exactness = 1e-4;
 
 }  // namespace
 
-// kept: Q and dQ/dp of the last step, then what the kind remembers
+// kept: Q and dQ/dp of the last step, then the state of the kind
 scalar outletPressure::begin(scalar t, const List<scalar>& kept)
 {
     t_ = t;

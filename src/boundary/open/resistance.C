@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The vessels behind the face resist the flow:
+// outlet resistance: the vessels behind the face resist the flow:
 //
 //     outside { type open; outlet resistance; p 0; resistance 1e8; }      // p + resistance Q
 //
-// p [Pa] over time is the pressure behind the resistance [Pa s/m^3; Pa s/m^2 in two dimensions].
+// p [Pa] over time is the pressure behind the resistance; resistance [Pa s/m^3; Pa s/m^2 in two dimensions].
 #include "outlet.H"
 
 namespace ispf

@@ -128,8 +128,8 @@ neighbourList::visibility boundary::visible(const particleCloud& cloud) const
     return content_->visibility.test(cloud, content_->walls, content_->facing);
 }
 
-// Fluid that stepped over a symmetry plane is reflected, over a cyclic side carried to the other
-// All that a particle carries along turns with it
+// Reflects fluid that has passed a symmetry plane, and moves fluid that has passed a cyclic side to the other side.
+// All vector fields of a particle turn with it
 List<label> boundary::content::putBack(particleCloud& cloud) const
 {
     List<label> turned(balance.size(), 0);
@@ -209,7 +209,7 @@ label boundary::exchange(particleCloud& cloud, scalar t1)
         b.flux = c.openFaces[k].flux(), b.volume += b.flux * dt;
         c.openFaces[k].accept(cloud, c.t0, t1);
     }
-    // rounding errors of surfaces would grow: nothing else keeps a flat case flat
+    // sets z to zero: rounding errors of surfaces would grow, and nothing else keeps a two-dimensional case flat
     for (label i = cloud.nSolid(); cloud.nDims == 2 && i < cloud.n(); ++i)
         cloud.x[i][2] = cloud.Up[i][2] = 0;
     if (!c.walls.empty()) c.guard.remember(cloud);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The books of the patches
+// The balances of the patches, and their log
 #include "boundaryContent.H"
 
 #include <ostream>
@@ -46,7 +46,7 @@ void boundary::printBalance(const particleCloud& cloud) const
     }
     const word unit = "[m" + std::to_string(cloud.nDims) + "/s, ";
     if (!fluxes.empty()) fluxes = unit + "out]: " + fluxes + ", sum " + str(sum);
-    // no part of the sum: what leaves at one of the planes enters at the other
+    // cyclic pairs are not in the sum: what leaves at one plane enters at the other
     for (const cyclicPair& pair : content_->cyclic)
         cyclic += (cyclic.empty() ? unit + "along the separation]: " : ", ") + pair.name + " " +
                   str(symmetryFactor() * content_->balance[pair.index].flux);

@@ -14,7 +14,7 @@ void boundary::content::addPatch(const word& name, const dictionary& dict, const
     const word type = dict.choose("type", {"wall", "symmetryPlane", "cyclic", "open"});
     const label index = label(balance.size());
     balance.push_back({name});
-    for (const word key : {"point", "normal"}) dict.found(key);  // generateParticles asks for them
+    for (const word key : {"point", "normal"}) dict.found(key);  // generateParticles reads them
     if (type == "symmetryPlane")
         group.addSymmetryPlane(name, dict.get<vector>("point", dims::length),
                                nonZero(dict, "normal"));
@@ -36,7 +36,7 @@ void boundary::content::addPatch(const word& name, const dictionary& dict, const
     }
 }
 
-// The rows of the solid know nothing of a pressure that differs between a pair's sides
+// fatalError if a solid reaches over a pair with a pressure drop: its rows allow no difference of p between the sides
 void boundary::content::checkDrops(const dictionary& patches, const particleCloud& cloud,
                                    scalar support) const
 {
@@ -76,7 +76,8 @@ void boundary::content::findLeavingWalls(const dictionary& patches, scalar dx)
         }
 }
 
-// What moves over a cyclic plane does not come back at the other: there would be a gap, and the fluid would leave
+// fatalError if a moving wall passes a cyclic plane: it does not come back at the other plane, and fluid would leave by the
+// gap
 void boundary::content::checkLeavingWalls(scalar t, scalar dx) const
 {
     for (const leavingWall& one : leaving)
@@ -92,9 +93,10 @@ void boundary::content::checkLeavingWalls(scalar t, scalar dx) const
             throw fatalError(
                 "Wall " + w.name + " moves across the cyclic patch " + pair.name +
                     ", and at time " + str(t) +
-                    " s its surface reaches one of the planes: what moves over it does not come "
-                    "back at the other. If the surface slides or turns in itself, give the wall a "
-                    "'velocity' or 'rotation' instead of 'motion'; else keep it between the planes",
+                    " s its surface reaches one of the planes: a wall that leaves at one plane "
+                    "does not enter at the other. If the surface slides or turns in itself, give "
+                    "the wall a 'velocity' or 'rotation' instead of 'motion'; else keep it between "
+                    "the planes",
                 one.where);
     }
 }
@@ -109,7 +111,7 @@ bool isPlane(const dictionary& dict)
 
 }  // namespace
 
-// A plane ends at walls, at symmetry planes and cyclic sides, and at other open faces that are planes
+// The mesh of an open face.  A plane ends at walls, symmetry planes, cyclic sides and other open planes
 faceMesh boundary::content::meshOf(const word& name, const dictionary& patches,
                                    const word& caseFolder, const particleCloud& cloud) const
 {
@@ -163,7 +165,7 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
 namespace
 {
 
-// An open face that gives the velocity, and its strip
+// An open face that gives the velocity, with the sites of its strip
 struct givingFace
 {
     const openFace& face;
@@ -177,7 +179,7 @@ bool meets(const givingFace& g, const wallSet& walls, label w, scalar dx)
                        [&](const vector& x) { return walls.distance(w, frame.toBody(x)) < dx; });
 }
 
-// Do they meet, and give velocities along different directions there?
+// True if the two faces meet and give velocities of different directions there
 bool clash(const givingFace& g, const givingFace& other, scalar dx)
 {
     pointGrid grid(2 * dx);
@@ -211,16 +213,17 @@ void boundary::content::findRims(const dictionary& patches, const siteFile& site
                 at.motion.moves() && meets(given[k], walls, w, dx))
                 patches.subDict(name).fail(
                     "type", "Wall " + at.name + " moves, and ends at the face " + name +
-                                ", where the velocity is given: the one would run into what the "
-                                "other brings. Give the pressure there, or the wall a 'velocity' "
-                                "or 'rotation' in itself if its surface stays where it is");
+                                ", where the velocity is given: the wall would run into fluid "
+                                "that enters. Give the pressure there; or, if the surface of the "
+                                "wall stays in place, give the wall a 'velocity' or 'rotation'");
         for (size_t m = k + 1; m < given.size(); ++m)
             if (clash(given[k], given[m], dx))
                 sharedRims.push_back({index[k], index[m], patches.subDict(name).where("type")});
     }
 }
 
-// Particles that two faces bring in would be carried into each other; one may take out what the other brings
+// fatalError if two faces that meet both bring fluid in: their particles would run into each other.  One may bring in what
+// the other takes out
 void boundary::content::setStep(const stepTimes& times)
 {
     for (openFace& face : openFaces) face.setStep(times.start, times.end, times.pressures);

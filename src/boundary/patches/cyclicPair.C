@@ -11,10 +11,10 @@ namespace ispf
 //
 //     Q = sum_i V u_i.n (w(d_i) + w(L - d_i)),   w(r) = max(0, 1 - |r|/a)/a,
 //
-// over the fluid that is not beyond open faces: the flow through the sections within a of the plane, on both sides of
-// it, averaged with the weight w, whose integral is 1.  A single section would be as uneven as particles lie.  Sections
-// far away do not count: between moving walls, open faces and solids they pass something else.  Where L < a = two
-// supports, a = L makes it the mean over all sections, sum V u.n/L.
+// over the fluid that is not beyond open faces.  This is the flow through the sections within a of the plane, on both sides
+// of it, averaged with the weight w, whose integral is 1.  A single section would be as uneven as the particles.  Far
+// sections must not count: between moving walls, open faces and solids their flow differs.  a is two supports, or L if L is
+// shorter: then Q is the mean over all sections, sum V u.n/L.
 scalar cyclicPair::flux(const particleCloud& cloud, scalar support) const
 {
     const scalar length = separation.norm(), a = std::min(2 * support, length);

@@ -25,7 +25,7 @@ faceMesh::faceMesh(triSurface surface, const imageGroup& group, const particleCl
         area_.sum += area(t), area_.directed += this->surface().areaVector(t);
 }
 
-// Does an edge of the rim only end the slice that a flat case is?
+// True if an edge of the rim only ends the slice of a two-dimensional case
 bool faceMesh::endsSlice(const vector& a, const vector& b) const
 {
     return slice_ && std::abs(a[2] - b[2]) < tiny_;

@@ -70,7 +70,7 @@ void imageGroup::setTime(scalar t)
     for (pressureDrop& d : drops_) d.now = d.function->value(t);
 }
 
-// All other sides are at right angles to a pair's separation: so many times it has been gone
+// The separations of pairs are at right angles to all other sides, so map.t tells how often each pair is passed
 scalar imageGroup::pressureOffset(const structureImage& map) const
 {
     scalar offset = 0;
@@ -121,8 +121,8 @@ imageGroup::wayHome imageGroup::wayBack(const vector& x) const
     return {};
 }
 
-// Only chambers that are images of one another may tile space: reflections generate a finite set
-// at an edge if the angle between the planes is 180 degrees over a whole number (Coxeter 1934)
+// Chambers must be images of one another: reflections at an edge generate a finite set
+// if the angle between the planes is 180 degrees over a whole number (Coxeter 1934)
 void imageGroup::checkAngles() const
 {
     for (const side& a : sides_)
@@ -152,7 +152,7 @@ void imageGroup::checkInside(const particleCloud& cloud) const
         for (label i = 0; i < cloud.n(); ++i)
         {
             scalar out = (cloud.x[i].xyz() - s.point).dot(s.normal);
-            // a solid that has set out over a cyclic plane began within it
+            // a solid that moves across a cyclic plane began within the planes
             if (s.cyclic && i < cloud.nSolid() && rest != cloud.vectors.end())
                 out = std::min(out, (rest->second[i].xyz() - s.point).dot(s.normal));
             if (out < 0.5 * cloud.dx) continue;
@@ -161,7 +161,7 @@ void imageGroup::checkInside(const particleCloud& cloud) const
                              ". Give the plane a normal that points out of the particles, and a "
                              "cyclic pair the point on its first plane");
         }
-    // the sides of a cyclic pair follow each other: between them lies one spacing
+    // the two sides of a pair are adjacent in sides_; from the last particles to the first images there is one spacing
     for (size_t k = 0; k + 1 < sides_.size(); ++k)
     {
         const side &a = sides_[k], &b = sides_[k + 1];
@@ -185,7 +185,7 @@ void imageGroup::checkInside(const particleCloud& cloud) const
     }
 }
 
-// Box of the particles, drawn out to the planes they may yet reach
+// Box of the particles, extended to the planes that they may reach
 boundBox imageGroup::regionOf(const particleCloud& cloud) const
 {
     boundBox box;
@@ -209,7 +209,7 @@ bool imageGroup::comesNear(const structureImage& map, const boundBox& region) co
     return true;
 }
 
-// Chamber by chamber: the neighbours of chamber g lie at g s, s a generator
+// Adds chamber by chamber: the neighbours of chamber g are g s, with a generator s
 void imageGroup::grow(const boundBox& region)
 {
     const scalar length = region.diagonal() + support_;
@@ -228,7 +228,7 @@ void imageGroup::grow(const boundBox& region)
                     " m: the region between the "
                     "symmetry planes and cyclic pairs is too thin. Widen it");
         }
-    for (size_t k = 0; k < all.size(); ++k)  // links expect every map's inverse in the list
+    for (size_t k = 0; k < all.size(); ++k)  // links expect the inverse of every map in the list
     {
         const structureImage inverse = {all[k].R.transpose(), -(all[k].R.transpose() * all[k].t)};
         if (!contains(all, inverse, length)) all.push_back(inverse);
@@ -236,7 +236,7 @@ void imageGroup::grow(const boundBox& region)
     maps_.assign(all.begin() + 1, all.end());
 }
 
-// How often the modelled part is contained in the whole: planes without a parallel partner only
+// Number of copies of the modelled part in the whole; only planes without a parallel partner count
 void imageGroup::setFactor()
 {
     List<structureImage> turns = {identity()};
@@ -279,13 +279,13 @@ vec4 turned(const tensor& R, const vec4& b)
     return vec4::from(R * b.xyz(), b[3]);
 }
 
-// Images of one map: of owned particles, of mirror images (their rules are multiplied), of rigid
-// particles
+// Makes the images of one map: of owned particles, of mirror images (their rules are multiplied) and of
+// rigid particles
 struct imageMaker
 {
     particleCloud& cloud;
     const structureImage& map;
-    scalar p;  // pressure offset
+    scalar p;  // pressure offset of the map
     label ownRule;
     std::map<label, label> productRule;
 
@@ -318,7 +318,8 @@ struct imageMaker
 
 }  // namespace
 
-// Solids are carried over a cyclic plane as whole bodies: what they reach beyond it sees as far from there
+// Solids are moved over a cyclic plane as whole bodies: the largest distance that they reach beyond a plane is added to the
+// support
 scalar imageGroup::reach(const particleCloud& cloud) const
 {
     scalar most = 0;

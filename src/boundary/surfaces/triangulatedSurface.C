@@ -33,7 +33,7 @@ triSurface continued(triSurface s, const imageGroup& group, scalar reach)
     return s;
 }
 
-// A coarse raster around the surface: most particles are far from it, and one look tells
+// A coarse raster around the surface: most particles are far from it, and one look-up shows that
 struct raster
 {
     vector low;
@@ -135,7 +135,7 @@ public:
     bool surelyFar(const vector& x) const override { return raster_.far(x); }
 
 private:
-    // Seen from x a sheet's normal points away
+    // Foot on a two-sided sheet: the normal points away from x
     surfaceFoot onSheet(const vector& x, const surfacePoint& p) const
     {
         surfaceFoot f;

@@ -37,7 +37,7 @@ void planeLattice::set(const imageGroup& group, const particleCloud& cloud, scal
     group_ = &group, nDims_ = cloud.nDims, dx_ = cloud.dx, support_ = support;
 }
 
-// Where the region ends along e and the lattice coordinates inside and behind its ends
+// Ends of the region along e, and the lattice coordinates inside and behind its ends
 planeLattice::axis planeLattice::axisOf(const vector& e, const List<wall>& walls) const
 {
     axis a;
@@ -62,7 +62,7 @@ planeLattice::axis planeLattice::axisOf(const vector& e, const List<wall>& walls
 
     const label n = std::max<label>(1, label(std::lround((a.high - a.low) / dx_)));
     const bool both = a.lowBound && a.highBound;
-    // free ends depend on the particles: a restart must find the same points, to the last digit
+    // free ends depend on the particles; a restart must find the same points, to the last digit
     const auto at = [&](label k) -> scalar {
         if (both) return a.low + (k + 0.5) * (a.high - a.low) / n;
         if (a.highBound) return a.high - (n - k - 0.5) * dx_;
@@ -78,7 +78,7 @@ planeLattice::axis planeLattice::axisOf(const vector& e, const List<wall>& walls
     return a;
 }
 
-// Axes along the normal and, as far as there are any, along planes at right angles to it
+// Axes along the normal, and along planes at right angles to it if there are any
 planeLattice::frame planeLattice::frameOf(const vector& normal, const List<wall>& walls) const
 {
     vector e[3] = {normal, vector::Zero(), vector::UnitZ()};
@@ -122,7 +122,7 @@ bool planeLattice::wanted(const vector& x) const
 
 void planeLattice::addStill(const List<frame>& all, size_t f, List<wall>& walls) const
 {
-    // per axis: coordinate, depth behind a plane (0 inside), that plane's wall
+    // per axis: coordinate, depth behind a plane (0 inside), wall of that plane
     struct node
     {
         scalar at, depth;

@@ -34,8 +34,8 @@ wall wall::New(const word& name, const dictionary& dict, const word& caseFolder)
         w.clampDepth = dict.getInRangeOrDefault("clampDepth", 0.1, 100, w.clampDepth);
     if (w.slip && w.motion.slides())
         dict.fail("slip",
-                  "a wall that slides in itself drags nothing along with 'slip yes': leave "
-                  "'velocity' and 'rotation' away, or slip");
+                  "with 'slip yes' a wall that slides in itself does not drag the fluid: remove "
+                  "'velocity' and 'rotation', or remove slip");
     if (!w.plane) return w;
     if (w.twoSided)
         dict.fail("twoSided",

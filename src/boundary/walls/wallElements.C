@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Particles near walls see of them rigid particles, and elements of their surfaces
+// Rigid particles and surface elements of walls near particles
 #include "wallSet.H"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ private:
     List<char> near_;
 };
 
-// Share of a triangle with d < 0, d linear between its corners; one that lies in d = 0 is half before it
+// Share of a triangle with d < 0, for d linear between its corners; 1/2 for a triangle in d = 0
 scalar shareBelowZero(std::array<scalar, 3> d, scalar rounding)
 {
     std::sort(d.begin(), d.end());
@@ -84,7 +84,7 @@ void wallSet::addRigid(particleCloud& cloud) const
             }
 }
 
-// Halves a triangle at its longest edge until all are shorter than dx, without what lies further than reach off the region
+// Halves a triangle at its longest edge until all are shorter than dx; leaves out parts further than reach from the region
 template <class Visit>
 void wallSet::split(const std::array<vector, 3>& t, const boundBox& region, scalar reach,
                     const Visit& visit) const
@@ -101,8 +101,8 @@ void wallSet::split(const std::array<vector, 3>& t, const boundBox& region, scal
     split({a, middle, c}, region, reach, visit), split({middle, b, c}, region, reach, visit);
 }
 
-// Facets that particles may come near, no longer than dx; those that share a cell of dx and look the same way as one: areas add up, the centre is
-// their mean.  What lies beyond symmetry planes and cyclic sides is an image
+// Makes elements from the facets near particles, no longer than dx.  Facets in one cell of dx with the same direction become
+// one element: its area vector is the sum, its centre the mean.  Facets beyond symmetry planes and cyclic sides are images
 void wallSet::makeElements(const particleCloud& cloud)
 {
     elements_.clear();
@@ -161,7 +161,7 @@ void wallSet::cover(const particleCloud& cloud)
     coverPlanes(cloud);
 }
 
-// The region depends on where particles are now, not on where they have been: a restart finds the same elements
+// The region depends on the present places of particles, not on earlier ones: a restart finds the same elements
 void wallSet::coverPlanes(const particleCloud& cloud)
 {
     if (cloud.n() == 0 ||
@@ -202,7 +202,7 @@ scalar wallSet::shareBefore(const element& e, const body& other) const
     return before / all;
 }
 
-// Share of an element, at x now, that lies in the fluid and not behind the surface of another body
+// Share of an element, at present at x, that lies in the fluid and not behind the surface of another body
 scalar wallSet::uncovered(const element& e, const vector& x) const
 {
     scalar share = 1;
@@ -214,7 +214,7 @@ scalar wallSet::uncovered(const element& e, const vector& x) const
         const surfaceFoot f = bodies_[b].surface->find(y);
         if (!f.found || f.aside >= e.reach) continue;
         if (std::abs(f.depth) >= e.reach) share = f.depth < 0 ? share : 0;
-        else if (e.facets.empty())  // a square of a plane, as wide as it reaches
+        else if (e.facets.empty())  // a square of a plane, with the width `reach`
             share = std::min(share, std::clamp(0.5 - f.depth / e.reach, 0.0, 1.0));
         else share = std::min(share, shareBefore(e, bodies_[b]));
     }

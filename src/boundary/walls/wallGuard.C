@@ -12,9 +12,9 @@ namespace
 
 const word seenField = "xGuarded";
 
-constexpr scalar gap = 0.15;      // [dx] kept from every surface
-constexpr scalar longStep = 0.1;  // [dx] only a longer one can get through a wall unseen
-constexpr int passes = 4;         // a push off one wall may lead into another, at an edge
+constexpr scalar gap = 0.15;      // [dx] distance kept from every surface
+constexpr scalar longStep = 0.1;  // [dx] a shorter way cannot pass a wall unseen
+constexpr int passes = 4;         // at an edge a push off one wall may lead into another
 
 // One particle against one surface, in the surface's frame
 struct pusher
@@ -22,8 +22,8 @@ struct pusher
     const patchSurface& surface;
     scalar dx;
 
-    // Where it must not be: on the way from `seen`, or too near.  Returns the patch, -1 if all is
-    // well
+    // Moves x off the surface if it is too near or has passed it on the way from `seen`.  Returns the patch, -1 if x
+    // was allowed
     label push(vector& x, const vector& seen, bool inStrip) const
     {
         if ((x - seen).norm() > longStep * dx && surface.crosses(seen, x))
@@ -37,7 +37,7 @@ struct pusher
         }
         if (surface.surelyFar(x)) return -1;
         const surfaceFoot f = surface.find(x);
-        // beside its rim a wall is continued for the strip of an open face only
+        // beside its rim a wall is continued only for the strip of an open face
         if (!f.found || (f.aside > 0 && !inStrip) || f.depth <= -(gap - 1e-9) * dx) return -1;
         x -= (f.depth + gap * dx) * f.normal;
         return f.patch;
@@ -55,7 +55,7 @@ struct approaching
 
     bool finds(const surfaceFoot& f) const { return f.found && (f.aside == 0 || inStrip); }
 
-    // From where it was seen it is shifted no nearer than to the gap, (8.36)
+    // The shift from the last trusted place may come no nearer to the surface than the gap, (8.36)
     void limitShift(vector& x, const vector& seen) const
     {
         const surfaceFoot f = body.surface->find(frame.toBody(x));
@@ -64,7 +64,8 @@ struct approaching
         const scalar most = finds(before) ? std::max(before.depth, -gap) : -gap;
         if (f.depth > most) x -= (f.depth - most) * frame.turn(f.normal);
     }
-    // Nor moves nearer: to the tangent plane at its foot, then to where it would be.  Was the velocity changed?
+    // The same for the velocity: tested at the tangent plane of the foot, then at the place after the step.  True if u has
+    // changed
     bool limitVelocity(const vector& x, vector& u) const
     {
         const surfaceFoot now = body.surface->find(frame.toBody(x));
@@ -87,7 +88,7 @@ struct approaching
     }
 };
 
-// A particle put back keeps no velocity into the wall: its inertia would press on, step after step
+// Puts particle i to x and takes away its velocity into the wall: its inertia would press on, step after step
 void putBack(particleCloud& cloud, label i, const vector& x, const vector& wallVelocity)
 {
     const vector off = (x - cloud.x[i].xyz()).normalized();

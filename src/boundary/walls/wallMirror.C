@@ -11,9 +11,9 @@ namespace
 {
 
 constexpr scalar parallel =
-    0.75;  // cosine between normals of one part, and of no corner: 41 degrees
-// Where particles would be stretched more they are few, next to the centre of curvature.  Never to nothing: viscosity
-// divides by it
+    0.75;  // least cosine between normals of one part; below it is a corner: 41 degrees
+// Bounds of the volume factor.  Larger factors occur only near the centre of curvature, where particles are few.  It must
+// not be zero: viscosity divides by it
 constexpr scalar leastStretch = 1e-3, mostStretch = 2;
 
 // Part of each triangle: connected through edges that are not sharp
@@ -48,10 +48,10 @@ List<label> smoothParts(const triSurface& s, bool twoSided)
     return part;
 }
 
-// Volume of the image of what lies d before a wall over its own: the product of (1 + kappa d)/(1 - kappa d) over the
-// principal curvatures, positive where the wall bends around the fluid.  Across t, kappa is taken from the surface a
-// before the wall, whose curvature kappa/(1 - kappa a) is 2 s/(a^2 - s^2), s the approach to the wall on the way a t:
-// exact for balls.  Three directions 120 degrees apart give the mean curvature H and half the difference D
+// Volume factor of the image of a region at the distance d before a wall: the product of (1 + kappa d)/(1 - kappa d) over
+// the principal curvatures, positive where the wall bends around the fluid.  kappa across t comes from the surface at the
+// distance a before the wall.  Its curvature kappa/(1 - kappa a) is 2 s/(a^2 - s^2), with s the approach to the wall on the
+// way a t: exact for balls.  Three directions 120 degrees apart give the mean curvature H and half the difference D
 scalar imageVolume(const patchSurface& surface, const surfaceFoot& f, int nDims, scalar a)
 {
     const vector y = f.foot - a * f.normal;
@@ -76,7 +76,7 @@ scalar imageVolume(const patchSurface& surface, const surfaceFoot& f, int nDims,
     return stretch(H + D) * stretch(H - D);
 }
 
-// Shortest way to all planes at once, and the projector onto the directions it can have
+// Shortest way to several planes at once, and the projector onto the directions it can have
 struct wayToPlanes
 {
     tensor P = tensor::Zero();
@@ -138,11 +138,11 @@ List<wallMirror::foot> wallMirror::feet(const particleCloud& cloud, const wallSe
         const surfaceFoot f = surface.find(x);
         const bool beside = f.aside > 0 && !cloud.beyondOpen(i);
         if (!f.found || f.depth >= 0 || f.depth < -support_) continue;
-        // past a rim fluid is seen, or the image of what lies beside it, never both: on a sheet only,
-        // as through the edge of a thick wall fluid sees fluid
+        // past the rim of a sheet a particle sees fluid, or the image of the fluid beside it, never both; past the edge of a
+        // thick wall it sees the fluid
         if (beside && !(body.twoSided && f.aside < support_)) continue;
         const wall& w = walls.walls()[body.walls[f.patch]];
-        // what lies deeper is seen at the edge of the support alone
+        // a deeper image is seen only at the edge of the support
         const bool bent = surface.mesh() && -f.depth < 0.75 * support_;
         const scalar volume = bent ? imageVolume(surface, f, cloud.nDims, cloud.dx) : 1;
         const vector at = frame.toSpace(f.foot);
@@ -213,7 +213,7 @@ private:
         facing_.push_back(cloud_.beyondOpen(i) ? vector(vector::Zero()) : direction.normalized());
     }
 
-    // Each wall turns the velocity round, relative to its own; one with slip its normal part only
+    // Each wall reverses the velocity relative to its own; a wall with slip reverses the normal part only
     tensor velocityMap(const List<foot>& members) const
     {
         wayToPlanes slip;
@@ -224,7 +224,7 @@ private:
         return sign * (tensor::Identity() - 2 * slip.P);
     }
 
-    // One rule serves a whole flat part
+    // All particles of a flat part share one rule
     label ruleFor(const List<foot>& members, const tensor& P, const tensor& A)
     {
         List<label> parts;

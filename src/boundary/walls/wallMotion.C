@@ -12,7 +12,7 @@ namespace ispf
 namespace
 {
 
-tensor cross(const vector& w)  // w x .
+tensor cross(const vector& w)  // the matrix of w x
 {
     tensor W;
     W << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
@@ -50,7 +50,7 @@ private:
     vector velocity_;
 };
 
-// Along the entry direction of d
+// The vector function along the entry `direction` of d with this size
 std::unique_ptr<vectorFunction1> along(const dictionary& d, std::unique_ptr<Function1> size)
 {
     return std::make_unique<alongDirection>(nonZero(d, "direction").normalized(), std::move(size));
@@ -149,7 +149,7 @@ bodyFrame wallMotion::frame(scalar t) const
     return f;
 }
 
-// Chords, not tangents: what follows the surface ends up on it however long the step
+// Uses chords, not tangents: a point that follows the surface ends up on it, however long the step is
 affineVelocity wallMotion::surfaceVelocity(scalar t0, scalar t1) const
 {
     affineVelocity v;

@@ -27,10 +27,10 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
     makeBodies(caseFolder, patches, group, support + cloud.dx);
     for (wall& w : walls_) w.moveTo(t0);
     checkSides(patches, cloud);
-    // as drawn whatever the time, so that what is found of them is the same after every restart
+    // walls are at displacement zero whatever the time, so that every restart finds the same data
     for (wall& w : walls_) w.frame = bodyFrame();
     readRigid(caseFolder, patches);
-    // what lies beyond symmetry planes and cyclic sides comes again as an image
+    // rigid particles beyond symmetry planes and cyclic sides are images of others
     for (wall& w : walls_)
         std::erase_if(w.rigid, [&](const vector& x) { return group.beyond(x) > 1e-6 * cloud.dx; });
     findFeet();
@@ -38,8 +38,8 @@ void wallSet::read(const word& caseFolder, const dictionary& patches, const imag
     cover(cloud);
 }
 
-// A neighbour that sees a rigid particle takes its velocity for that of the wall between them.  Behind a wall that
-// rotates it would be another one, and turn the fluid twice; and viscosity wants to know how far off the wall is
+// Finds the feet of the rigid particles.  A rigid particle of a rotating wall has the velocity at its foot: its own velocity
+// would turn the fluid twice.  Viscosity needs the distance to the wall
 void wallSet::findFeet()
 {
     for (const body& b : bodies_)
@@ -89,7 +89,7 @@ void wallSet::makeBodies(const word& caseFolder, const dictionary& patches, cons
         if (const triSurface* mesh = b.surface->mesh()) b.bounds = mesh->bounds();
 }
 
-// Which side particles are on tells normals that point the wrong way, and surfaces in millimetres
+// fatalError if particles are on the wrong side: shows normals that point the wrong way, and surfaces in millimetres
 void wallSet::checkSides(const dictionary& patches, const particleCloud& cloud) const
 {
     List<label> before(walls_.size(), 0), behind(walls_.size(), 0);
@@ -225,8 +225,8 @@ List<scalar> wallSet::moveTo(scalar t)
     return swept;
 }
 
-// Each facet sweeps the way of its centre times the mean of its areas before and after: exact to the third order of
-// the angle
+// Swept volume of a turning body: each facet sweeps the way of its centre times the mean of its areas before and after.
+// This is exact to the third order of the angle
 scalar wallSet::turnedVolume(const body& b, const bodyFrame& from, const bodyFrame& to) const
 {
     if (b.twoSided) return 0;
@@ -253,7 +253,7 @@ scalar wallSet::maxSpeed() const
                 most = std::max(most, w.velocity.u.norm());
                 continue;
             }
-            // a plane has no end: its particles are where the fluid is
+            // a plane has no end: its rigid particles are where the fluid is
             const List<vector>& points = w.plane ? w.rigid : b.surface->mesh()->nodes;
             for (const vector& X : points)
                 most = std::max(most, w.velocity.at(w.frame.toSpace(X)).norm());
@@ -323,7 +323,7 @@ bool wallSet::movedOver(const vector& x, scalar distance) const
     for (const body& b : bodies_)
     {
         if (!b.carrier(*this).motion.moves() || b.twoSided) continue;
-        // beside a rim it is continued, as wallGuard does for the strip: seen from the wall, x comes from x to y
+        // the wall is continued beside its rim, as in wallGuard for the strip; relative to the wall, x moves from x to y
         const vector y = frame(b).toBody(x);
         if (b.surface->crosses(x, y)) return true;
         const label n = label((y - x).norm() / (0.5 * support_));

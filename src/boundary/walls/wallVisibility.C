@@ -11,8 +11,8 @@ namespace ispf
 namespace
 {
 
-// Does a wall that faces the other way lie within `support` behind triangle t?  Asked at points no
-// further than half a support apart
+// True if a wall that faces the other way lies within `support` behind triangle t, tested at points no
+// further apart than half a support
 bool isThin(const surfaceSearch& search, label t, scalar support)
 {
     const triSurface& s = search.surface();
@@ -23,7 +23,7 @@ bool isThin(const surfaceSearch& search, label t, scalar support)
     for (int i = 0; i <= m; ++i)
         for (int j = 0; i + j <= m; ++j)
         {
-            // drawn in a little, so that neighbours across an edge are not hit
+            // moved inwards a little, so that neighbours across an edge are not hit
             const scalar p = 0.02 + 0.94 * i / m, q = 0.02 + 0.94 * j / m;
             const vector from = a + p * e1 + q * e2 + 1e-6 * support * n;
             const surfaceHit hit = search.firstHit(from, from + support * n);
@@ -32,7 +32,7 @@ bool isThin(const surfaceSearch& search, label t, scalar support)
     return false;
 }
 
-// The nearest wall of every fluid particle and image near the thin part; positions in its frame
+// The nearest wall point of every fluid particle and image near a thin part; positions in the frame of the part
 struct wallView
 {
     struct place
@@ -41,7 +41,7 @@ struct wallView
     };
     const particleCloud& cloud;
     const patchSurface& surface;
-    bodyFrame frame;  // copied: walls move on while pairs are still asked
+    bodyFrame frame;  // copied: walls move on while pairs are still tested
     scalar margin;
     List<label> slot;  // -1: far
     List<place> places;
@@ -84,7 +84,7 @@ struct wallView
     }
 };
 
-// Mirror images
+// The mirror images, for the test of their pairs
 struct imageView
 {
     const particleCloud& cloud;

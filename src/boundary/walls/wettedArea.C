@@ -12,7 +12,7 @@ namespace ispf
 namespace
 {
 
-// [dx] The fluid before a part is looked for about a point so far before it, so far around
+// [dx] distance before a part at which its fluid is searched, and radius of this search
 constexpr scalar ahead = 0.7, sight = 1.2;
 
 // Zone of the fluid particle nearest before a plane, -1 without fluid
@@ -34,7 +34,7 @@ void wettedArea::find(const wallSet& walls, const imageGroup& group, const parti
 {
     for (const wallSet::body& b : walls.bodies())
     {
-        const label index = b.walls.front();  // a moving wall is a body of its own
+        const label index = b.walls.front();  // each moving wall is a body
         const wall& w = walls.walls()[index];
         if (!w.motion.moves()) continue;
         if (w.plane)
@@ -85,7 +85,7 @@ sweptRates wettedArea::rates(const wallSet& walls, const particleCloud& cloud) c
     {
         const wall& w = walls.walls()[p.wall];
         const vector centre = w.frame.toSpace(p.centre);
-        // the mean of the areas before and after, as wallSet::turnedVolume: chords alone have a divergence
+        // mean of the areas before and after, as in wallSet::turnedVolume: chords alone would have a divergence
         const vector area = 0.5 * (w.frame.turn(p.area) + w.after.turn(p.area));
         const scalar rate = -w.surfaceVelocity.at(centre).dot(area);
         if (rate == 0) continue;

@@ -35,7 +35,7 @@ void execution::forRanges(label n, label grain, rangeBody body, const void* cont
         if (n > 0) body(context, 0, n);
         return;
     }
-    List<std::exception_ptr> thrown(parts);  // an exception may not leave a thread
+    List<std::exception_ptr> thrown(parts);  // an exception must not leave a thread
 #pragma omp parallel for schedule(dynamic, 1)
     for (label k = 0; k < parts; ++k)
     {

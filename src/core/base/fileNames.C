@@ -41,7 +41,7 @@ word readText(const word& path)
     if (isFolder(path)) throw fatalError("Cannot read " + path + ": it is a folder.");
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
-    // of a shell's own pipes, which are below /dev, the end comes
+    // a shell's own pipes, below /dev, do come to an end
     const bool ownPipe = fs::is_fifo(status) && path.rfind("/dev/", 0) == 0;
     if (fs::exists(status) && !fs::is_regular_file(status) && !ownPipe)
         throw fatalError("Cannot read " + path + ": it is " +
@@ -132,7 +132,7 @@ List<fs::path> etcFolders()
     List<fs::path> folders;
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    // Not the root itself: /etc belongs to the system
+    // not in the root itself: /etc belongs to the system
     for (fs::path p = program.parent_path(); p.has_relative_path(); p = p.parent_path())
         folders.push_back(p / "etc");
     if (const char* openfoam = std::getenv("WM_PROJECT_DIR"))

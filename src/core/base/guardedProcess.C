@@ -34,7 +34,7 @@ scalar now()
     throw fatalError("Cannot " + what + ": " + std::strerror(errno));
 }
 
-// A file in memory would be subject to limits on the size of files, a disk may be full
+// A pipe to hand over data.  A file in memory would be subject to limits on file sizes; a disk may be full
 class pipeTo
 {
 public:
@@ -42,19 +42,19 @@ public:
     {
         if (pipe2(ends_, O_CLOEXEC) != 0) cannot("open a pipe");
         fcntl(ends_[0], F_SETFL, O_NONBLOCK);
-        fcntl(ends_[1], F_SETPIPE_SZ, 1 << 20);  // fewer turns; it works without
+        fcntl(ends_[1], F_SETPIPE_SZ, 1 << 20);  // fewer turns; works without it
     }
     pipeTo(const pipeTo&) = delete;
     ~pipeTo() { closeOwn(), close(ends_[0]); }
 
     int entry() const { return ends_[1]; }
     int exit() const { return ends_[0]; }
-    void closeOwn()  // the entry, once another process has it
+    void closeOwn()  // closes the entry, once another process has it
     {
         if (ends_[1] >= 0) close(ends_[1]);
         ends_[1] = -1;
     }
-    // What is there, into text; false at the end
+    // Appends the available data to text; false at the end
     bool drain(word& text)
     {
         for (;;)
@@ -75,16 +75,16 @@ enum class outcome : int
 {
     none,
     done,
-    refused,  // by the job itself, in words for the user
+    refused,  // the job itself has refused, with a message for the user
     failed
 };
 
-// What both processes see
+// Memory that both processes see
 struct sharedPage
 {
-    volatile scalar deadline;  // the moment until which the job may run
+    volatile scalar deadline;  // time until which the job may run
     volatile outcome result;
-    volatile size_t textAt;  // where its own words begin in what it handed over
+    volatile size_t textAt;  // begin of the job's own message in the data it handed over
 };
 
 class sharedMemory
@@ -105,7 +105,7 @@ private:
     void* page_;
 };
 
-// Without the colours of a terminal, ESC [ ... m
+// Removes the colours of a terminal, ESC [ ... m
 word uncoloured(word text)
 {
     for (size_t at = 0; (at = text.find("\033[", at)) != word::npos;)
@@ -154,7 +154,7 @@ outcome carryOut(int to, const sharedMemory& shared, const std::function<void(pa
     {
         return say(error.what(), outcome::failed);
     }
-    catch (const std::string& error)  // as gmsh throws
+    catch (const std::string& error)  // gmsh throws strings
     {
         return say(error, outcome::failed);
     }
@@ -170,7 +170,8 @@ void limitTo(const processLimits& limits)
     };
     most(RLIMIT_CORE, 0);
     most(RLIMIT_CPU, std::ceil(limits.cpuSeconds));
-    size_t pages = 0;  // that the process has already: AddressSanitizer takes terabytes at start
+    // pages that the process has already: AddressSanitizer takes terabytes at start
+    size_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     if (limits.memory > 0 && pages > 0)
         most(RLIMIT_AS, scalar(pages) * scalar(sysconf(_SC_PAGESIZE)) + scalar(limits.memory));
@@ -179,9 +180,9 @@ void limitTo(const processLimits& limits)
 void prepareChild(int log, const processLimits& limits)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    // Whatever the parent does on these: here they end the process, and the parent sees it
+    // whatever the parent does on these signals, here they end the process, and the parent sees it
     for (const int s : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(s, SIG_DFL);
-    // Those that stop a run are for the parent
+    // the signals that stop a run are for the parent
     for (const int s : {SIGTERM, SIGINT}) std::signal(s, SIG_IGN);
     limitTo(limits);
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
@@ -189,16 +190,16 @@ void prepareChild(int log, const processLimits& limits)
 }
 
 constexpr int glance = 50;          // [ms] between looks at the clock
-constexpr size_t lastWords = 8192;  // [byte] of what it prints that are kept
+constexpr size_t lastWords = 8192;  // [byte] of its last output that are kept
 
-// Takes in what the process prints and hands over until it has ended; false if it had to be killed
+// Reads what the process prints and hands over until it has ended; false if it had to be killed
 bool waitFor(pid_t pid, const sharedMemory& shared, pipeTo& log, word& printed, pipeTo& result,
              word& handed, int& status)
 {
     for (bool open = true;;)
     {
         pollfd ends[] = {{result.exit(), POLLIN, 0}, {log.exit(), POLLIN, 0}};
-        if (open) poll(ends, 2, glance);  // when the result's end is reached it is about to end
+        if (open) poll(ends, 2, glance);  // at the end of the result the process is about to end
         else std::this_thread::sleep_for(std::chrono::microseconds(100));
         open = open && result.drain(handed);
         log.drain(printed);

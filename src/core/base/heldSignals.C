@@ -11,7 +11,7 @@ volatile std::sig_atomic_t held = 0;
 
 }  // namespace
 
-// By handlers, not by a mask: that would be of this thread only
+// Uses handlers, because a mask would hold for this thread only
 heldSignals::heldSignals()
 {
     for (std::size_t k = 0; k < n; ++k)

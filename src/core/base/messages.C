@@ -23,14 +23,14 @@ namespace
 
 int outputError = 0;  // errno of the first write to stdout that failed
 
-// Lists of a step come again in the next: their memory stays with the program, which else hands it back and has it cleared
-// for it each time
+// Keeps freed memory in the program: lists of a step come again in the next step, and returned memory would be cleared
+// for each of them
 void keepMemory()
 {
     mallopt(M_MMAP_MAX, 0), mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 }
 
-// A log that cannot be written stops no run: runMain tells at its end
+// A log that cannot be written does not stop a run: runMain reports it at the end
 void note(bool written)
 {
     if (!written && outputError == 0) outputError = errno != 0 ? errno : EIO;
@@ -87,7 +87,7 @@ word placeText(const fileLocation& w)
     return text + ".";
 }
 
-// To stderr; and to the log as well where stderr is a terminal and stdout is not
+// Prints to stderr; also to the log, if stderr is a terminal and stdout is not
 void complain(const word& text)
 {
     if (::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO)) std::fputs(text.c_str(), stdout);
@@ -104,7 +104,7 @@ int report(const fatalError& error)
     return 1;
 }
 
-// What a program opens must not take the place of a stream that it was started without
+// Opens missing standard streams, so that no file of the program takes their place
 void occupyStandardStreams()
 {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

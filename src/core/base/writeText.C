@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// writeText: a file that is either the old one or the new one, never a part of it
+// writeText: afterwards the file is either the old one or the new one, never a part of it
 #include "fileNames.H"
 #include "heldSignals.H"
 
@@ -28,8 +28,8 @@ namespace
                            : "Check that the folder exists and that you may write there."));
 }
 
-// The file under its temporary name; removed again unless it was moved into place.  It gets mode and owner of the
-// one that it replaces, and until it is whole nobody else may read it
+// The file under its temporary name; its destructor removes it unless it was moved into place.  It gets mode and owner of
+// the file that it replaces; until it is complete nobody else may read it
 class temporaryFile
 {
 public:
@@ -61,7 +61,7 @@ public:
         }
     }
 
-    // To disk, under the temporary name still
+    // Completes the file on disk, still under the temporary name
     void finish()
     {
         if (replaces_) takeOver();
@@ -78,7 +78,7 @@ public:
     const word& path() const { return path_; }
 
 private:
-    // To give a file away is for its system's administrator, and some file systems know no modes
+    // Only an administrator may give a file to another owner, and some file systems have no modes: errors are ignored
     void takeOver() const
     {
         [[maybe_unused]] const bool owned =
@@ -94,8 +94,8 @@ private:
     bool moved_ = false;
 };
 
-// Without this the rename itself may be lost with the power.  Some file systems cannot do it for a
-// folder and say EINVAL; nothing more can be done there.
+// Without this, a power failure may lose the rename.  Some file systems cannot sync a folder and
+// return EINVAL; then nothing more can be done.
 void syncFolder(const word& path, const word& folder)
 {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -58,7 +58,7 @@ public:
         for (const term& term : terms_) sum += term.a * std::pow(t, term.n);
         if (finite(sum)) return sum;
         throw fatalError("The polynomial has no value at " + str(t) +
-                             " s: a negative power wants times other than 0, a fractional one "
+                             " s: a negative power needs times other than 0, a fractional one "
                              "times that are not negative.",
                          where_);
     }
@@ -74,7 +74,7 @@ private:
     fileLocation where_;
 };
 
-// scale amplitude wave(frequency (t - t0)) + level; a sine, or a square wave that is +1 for the
+// scale amplitude wave(frequency (t - t0)) + level.  The wave is a sine, or a square wave that is +1 for the
 // share mark/(mark + space) of a period and -1 for the rest
 template <class T>
 class wave : public Function1Of<T>
@@ -130,7 +130,7 @@ private:
     std::unique_ptr<Function1Of<T>> value_;
 };
 
-// From 0 before `start` to 1 after `duration`
+// Rises from 0 before `start` to 1 after `duration`
 class ramp : public Function1
 {
 public:
@@ -179,14 +179,14 @@ List<Function1Row<T>> rowsIn(const word& key, const dictionary& d)
     return inlineRows<T>(d.tokenList(key), d.where(key));
 }
 
-// ((a n) (b m)), a and b vectors where a vector is wanted
+// The terms ((a n) (b m)); a and b are vectors for a vector function
 template <class T>
 std::unique_ptr<Function1Of<T>> powers(const List<token>& tokens, const fileLocation& where)
 {
     valueReader in(tokens, "coeffs", where);
     const word form = "terms ((coefficient exponent) ...)";
     List<typename polynomial<T>::term> terms;
-    if (!in.done() && in.peek().isPlain()) in.take();  // their number
+    if (!in.done() && in.peek().isPlain()) in.take();  // number of terms
     for (in.expect('(', form); !in.at(')'); in.expect(')', form))
     {
         in.expect('(', form);
@@ -200,7 +200,7 @@ std::unique_ptr<Function1Of<T>> powers(const List<token>& tokens, const fileLoca
     return std::make_unique<polynomial<T>>(terms, where);
 }
 
-// Those that are one word
+// The functions that consist of one word
 template <class T>
 std::unique_ptr<Function1Of<T>> named(const word& type)
 {
@@ -231,7 +231,7 @@ bool isValue(const List<token>& tokens, bool ofVector)
 {
     if (tokens.empty()) return false;
     if (tokens[0].is('[') || ofVector) return tokens[0].is('[') || tokens[0].is('(');
-    // also if it is not a finite one, which is said where it is read
+    // also for a number that is not finite: reading it gives the error
     const word& text = tokens[0].text;
     const size_t digit = text.find_first_not_of("+-.");
     return tokens[0].isPlain() && digit != word::npos &&
@@ -268,7 +268,7 @@ std::unique_ptr<Function1Of<T>> Function1Of<T>::New(const word& key, const dicti
     if (type == "constant" || type == "uniform")
         return std::make_unique<constant<T>>(
             valueReader(tokens, key, dict.where(key), wanted).template whole<T>());
-    if (type == "codeStream") dict.get<T>(key, wanted);  // refuses it
+    if (type == "codeStream") dict.get<T>(key, wanted);  // get refuses it
     const word v = ofVector ? "(x y z)" : "v";
     dict.fail(key, "'" + key + "' is a function of time: " +
                        (ofVector ? "a vector (x y z)" : "a number") + ", 'constant " + v +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the rows of a tabulated function come from.
+// Reads the rows of a tabulated function.
 #include "Function1Table.H"
 
 #include "fileNames.H"
@@ -14,7 +14,7 @@ namespace ispf
 namespace
 {
 
-// ((t v) (t v) ...), optionally with the count in front and, if `unit` is given, the values' unit behind it
+// Reads ((t v) (t v) ...), with an optional count in front and, if `unit` is given, an optional unit after it
 template <class T>
 class rowReader : private valueReader
 {
@@ -95,7 +95,7 @@ word trimmed(const word& s)
     return b == word::npos ? "" : s.substr(b, s.find_last_not_of(blank) - b + 1);
 }
 
-// To SI, by the entry units ([ms] [mm])
+// Factors to SI of the entry units ([ms] [mm])
 struct rowUnits
 {
     bool given = false;
@@ -176,7 +176,7 @@ private:
         fileLocation where;
     };
 
-    // Of the time and of n components
+    // Names of the columns of the time and of n components
     List<word> columnNames(size_t n) const
     {
         const word value = n == 3 ? "x y z" : "value",
@@ -210,7 +210,7 @@ private:
         return cells;
     }
 
-    // Names, each with its unit or without: time [s].  They may stand behind a #
+    // Reads names, each with or without a unit: time [s].  They may stand behind a #
     void readHeader(const word& line)
     {
         headerLine h;
@@ -229,7 +229,7 @@ private:
         headers_.push_back(h);
     }
 
-    // The last line of the header that has the columns wanted; one behind a # only where no other has them
+    // Chooses the last header line that has the wanted columns; one behind a # only if no other has them
     void chooseHeader(const List<word>& columns)
     {
         const auto has = [](const headerLine& h, const word& column) {
@@ -248,7 +248,7 @@ private:
         }
     }
 
-    // To SI; `given`: by the entry units.  The header says it already, if it says it
+    // Factor to SI of a column.  given: factor of the entry units, used if the header has no unit for the column
     scalar factor(size_t column, const dimensionSet& wanted, scalar given) const
     {
         if (column >= header_.units.size() || header_.units[column].empty()) return given;

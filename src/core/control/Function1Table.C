@@ -49,7 +49,7 @@ T Function1Table<T>::value(scalar t) const
         const scalar period = t_.back() - t_.front();
         return period > 0 ? inside(t - period * std::floor((t - t_.front()) / period)) : v_.front();
     }
-    // the end of the last step is endTime but for rounding
+    // the end of the last step differs from endTime by rounding
     const scalar rounding = 1e-9 * std::max(std::abs(t_.front()), std::abs(t_.back()));
     if (t >= t_.front() - rounding && t <= t_.back() + rounding) return inside(t);
     const word range = str(t_.front(), 10) + " to " + str(t_.back(), 10);

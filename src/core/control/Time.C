@@ -19,7 +19,7 @@ volatile std::sig_atomic_t stopSignal = 0;
 
 constexpr scalar never = std::numeric_limits<scalar>::infinity();
 
-// t to 15 digits where that is within the tolerance
+// t rounded to 15 digits, if that is within the tolerance
 scalar inFewDigits(scalar t, scalar tolerance)
 {
     char text[32];
@@ -72,7 +72,7 @@ void Time::goTo(scalar t)
     started_ = true;
 }
 
-// Rounding errors of the clock, far below any step
+// Bound of the clock's rounding errors, far below any step
 scalar Time::slack() const
 {
     return 1e-9 * deltaT_ + 2e-15 * std::abs(value_);
@@ -102,18 +102,18 @@ scalar Time::nextTarget() const
     const auto multiple = [&](scalar interval) {
         const scalar next = interval * (std::floor(now / interval) + 1);
         target = std::min(target,
-                          inFewDigits(next, slack()));  // 3 times 0.1 is 0.3, as endTime would be
+                          inFewDigits(next, slack()));  // 3 times 0.1 becomes 0.3, like an endTime
     };
     if (writeControl_ == "adjustableRunTime") multiple(writeInterval_);
     for (const scalar interval : hitIntervals_) multiple(interval);
     const auto next = std::upper_bound(writeTimes_.begin(), writeTimes_.end(), now);
     if (next != writeTimes_.end()) target = std::min(target, *next);
-    // only the last two steps know of endTime
+    // only the last two steps depend on endTime
     const bool endsSoon = !keepsDeltaT() && endTime_ > now && endTime_ - value_ < 2 * deltaT_;
     return endsSoon && endTime_ + slack() < target ? endTime_ : target;
 }
 
-// Equal steps up to the next instant: none is shorter than half of what was asked for
+// Length of equal steps to the next instant: none is shorter than half of dt
 scalar Time::nextStep(scalar dt) const
 {
     const scalar remaining = nextTarget() - value_;
@@ -150,7 +150,7 @@ Time& Time::operator++()
     stateFolder_.clear();
     previous_ = value_;
     value_ += deltaT_, deltaTBehind_ = deltaT_;
-    // Land on the instant itself, not beside it by rounding.  Without one: ten steps of 0.1 make 1
+    // end exactly at the instant; without one, ten steps of 0.1 must make 1
     if (std::abs(value_ - target) < slack()) value_ = target;
     else if (target == never) value_ = inFewDigits(value_, 1e-6 * deltaT_);
     ++index_;
@@ -168,8 +168,8 @@ void Time::rewind(scalar value, label index)
     stopAfterThis_ = false, stoppedBy_ = 0;
 }
 
-// The folder's name reads as its time, within the tolerance (OpenFOAM: a tenth of the step), so that no other has it and
-// none that comes later seems earlier
+// Increases the digits until the folder's name reads as its time within the tolerance (OpenFOAM: a tenth of the step).
+// Then no other folder has this name, and no later folder seems to be earlier
 void Time::growPrecision(scalar tolerance)
 {
     const int before = precision_;
@@ -210,7 +210,7 @@ label Time::clockStamp() const
     return label(elapsed / writeInterval_);
 }
 
-// Decided at the first question in a step, so that everybody gets the same answer even if a signal
+// Decided at the first call in a step, so that everybody gets the same answer, even if a signal
 // or a tick of the clock comes in between
 bool Time::writeTime() const
 {
@@ -264,7 +264,7 @@ void Time::stopOnSignals()
     action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
     ::sigaction(SIGTERM, &action, nullptr);
     ::sigaction(SIGINT, &action, nullptr);
-    // a log that nobody reads any more, or a file that may not grow, is an error of writing
+    // a log without a reader, or a file that may not grow, is an error of writing
     for (const int s : {SIGPIPE, SIGXFSZ}) std::signal(s, SIG_IGN);
 }
 

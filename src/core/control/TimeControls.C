@@ -27,8 +27,8 @@ word formattedTime(const char* form, int precision, scalar t)
     return text;
 }
 
-// Is `name` a way of writing t, with whatever timeFormat and timePrecision it was written.  What growPrecision lets pass
-// is one at any precision
+// True if `name` is a way of writing t with some timeFormat and timePrecision.  A name that growPrecision accepts
+// is one at every precision
 bool isNameOf(const word& name, scalar t, scalar deltaT)
 {
     if (scalar number; readNumber(name, number) &&
@@ -40,7 +40,7 @@ bool isNameOf(const word& name, scalar t, scalar deltaT)
     return false;
 }
 
-// Of uniform/time
+// Checksum in uniform/time
 globalId clockChecksum(scalar value, label index, scalar deltaT)
 {
     checksum sum;
@@ -55,7 +55,8 @@ struct clock
     scalar deltaT;
 };
 
-// Neither index nor deltaT could be told wrong without the checksum.  Files of earlier versions have none
+// Reads the clock.  Without the checksum an error in index or deltaT would not be noticed.  Files of earlier versions have
+// none
 clock clockOf(const dictionary& d)
 {
     const clock c = {d.get<scalar>("value"), d.get<label>("index"), d.get<scalar>("deltaT")};
@@ -68,11 +69,11 @@ clock clockOf(const dictionary& d)
     return c;
 }
 
-// What is left in a time folder without a state
+// The files of a time folder without a state
 struct leftOver
 {
-    List<word> state, foreign;  // files that only a state has, and others
-    bool interrupted = false;   // a file was being written when its program was ended
+    List<word> state, foreign;  // files that only a state has, and other files
+    bool interrupted = false;   // the program was ended while it wrote a file
 
     explicit leftOver(const word& folder)
     {
@@ -92,7 +93,7 @@ struct leftOver
     }
 };
 
-// A newer folder is not passed over in silence: the run would write over what its owner thinks is there
+// Warns of a newer folder without a state, or refuses it: the run would overwrite the folder
 void passOver(const word& folder)
 {
     const leftOver left(folder);
@@ -129,7 +130,7 @@ void Time::readControls(const dictionary& d)
         d.fail("stopAt",
                "There is no next write: writeControl is 'none' and writeTimes are not given");
     for (const char* key : {"startFrom", "startTime"}) d.found(key);
-    // What an OpenFOAM user writes here but has no effect on us
+    // entries of OpenFOAM users that have no effect here
     for (const char* key : {"application", "graphFormat", "libs", "writeCompression"}) d.found(key);
 }
 
@@ -170,17 +171,17 @@ void Time::rereadIfModified()
     controlStamp_ = stamp;
     try
     {
-        Time changed = *this;  // all of it or nothing
+        Time changed = *this;  // all changes or none
         changed.control_ = dictionary::fromFile(controlFile());
         changed.readControls(changed.control_);
         dictionary others = changed.control_;
-        others.remove("functions");  // who reads them checks them
+        others.remove("functions");  // their readers check them
         others.checkAllRead();
         ++changed.readings_;
         *this = changed;
         info() << "Read the changed " << controlFile() << "\n";
     }
-    catch (const fatalError& e)  // an editor may have saved half a thought
+    catch (const fatalError& e)  // an editor may have saved a half-finished file
     {
         warning("The changed controlDict is not used:\n" + formatted(e));
     }
@@ -200,7 +201,7 @@ scalar Time::chosenStart() const
     return candidates.empty() ? otherwise : candidates.back().t;
 }
 
-// As a folder's name reads, where t is what its state says to the last digit
+// The time in the name of the folder whose state has the time t to the last digit
 scalar Time::namedTime(scalar t) const
 {
     const auto isNear = [t](scalar other) { return std::abs(other - t) <= 1e-12 * std::abs(t); };
@@ -237,7 +238,7 @@ bool Time::hasState(const word& name) const
     return isFile(folder + "/particles.hdf") || isFile(folder + "/uniform/particles");
 }
 
-// The folder name holds few digits; uniform/time holds all of them
+// The folder name has few digits; uniform/time has all of them
 void Time::readState()
 {
     const dictionary d = dictionary::fromFileIfPresent(folder() + "/uniform/time");
@@ -248,7 +249,7 @@ void Time::readState()
         const auto [value, index, deltaT] = clockOf(d);
         recall(value, index, deltaT, d.path());
     }
-    // as many digits as the folder's name has, so that this time goes by that name
+    // as many digits as the folder's name has, so that this time keeps the name
     const word name = folderName(named);
     if (scalar number; isFolder(case_ + "/" + name) && readNumber(name, number))
     {
@@ -268,7 +269,7 @@ scalar Time::timeOf(const folderOfTime& f) const
         const clock c = d.empty() ? clock{t, 0, 0} : clockOf(d);
         if (isNameOf(f.name, c.value, c.deltaT)) t = c.value;
     }
-    catch (const fatalError&)  // who starts there is told
+    catch (const fatalError&)  // a run that starts there gets the error
     {
     }
     return timeOf_[f.name] = t;
@@ -279,8 +280,8 @@ void Time::recall(scalar value, label index, scalar deltaT, const word& source)
     const word name = folderName(value_);
     if (name != timeName(value) && !isNameOf(name, value, deltaT))
     {
-        warning(source + " speaks of time " + str(value, 10) +
-                ", its folder of another: the folder's name is believed.");
+        warning(source + " states time " + str(value, 10) +
+                ", but the name of its folder another time: the name of the folder is used.");
         value = value_;
     }
     startTime_ = value_ = previous_ = value;

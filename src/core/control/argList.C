@@ -144,13 +144,13 @@ void argList::setCase()
     if (!isFolder(dir)) throw fatalError("The case folder '" + dir + "' does not exist.");
     case_ = std::filesystem::canonical(dir).string();
     const word name = std::filesystem::path(case_).filename().string();
-    // as OpenFOAM's programs do, for macros
+    // for macros, as in OpenFOAM's programs
     for (const auto& [variable, value] : {std::pair<const char*, const word&>{"FOAM_CASE", case_},
                                           {"FOAM_CASENAME", name},
                                           {"FOAM_EXECUTABLE", program_},
                                           {"FOAM_APPLICATION", program_}})
         ::setenv(variable, value.c_str(), 1);
-    ::setenv("FOAM_API", "1912", 0);  // whose dictionary language this is
+    ::setenv("FOAM_API", "1912", 0);  // version of the dictionary language
 }
 
 const word& argList::option(const word& name) const

@@ -109,7 +109,7 @@ dictionary dictionary::fromFile(const word& path)
 
 dictionary dictionary::fromFileIfPresent(const word& path)
 {
-    // whatever it is, a link that leads nowhere too: what cannot be read is told
+    // whatever it is, even a link that leads nowhere: fromFile says why it cannot be read
     std::error_code ignored;
     if (std::filesystem::exists(std::filesystem::symlink_status(path, ignored)))
         return fromFile(path);
@@ -303,7 +303,7 @@ void dictionary::checkAllRead() const
             if (e.isDict()) e.dict->checkAllRead();
             continue;
         }
-        // an included file may hold settings for others, or for macros alone
+        // an included file may have settings for others, or for macros only
         const fileLocation at = content_->where(e);
         if (at.file != path()) continue;
         const List<word> asked(content_->asked->begin(), content_->asked->end());

@@ -16,7 +16,7 @@ bool isNumber(const token& t, scalar& value)
     return t.isPlain() && readNumber(t.text, value);
 }
 
-// Numbers by value, words and strings by their text; a number is no string
+// Compares numbers by value, words and strings by their text; a number is never equal to a string
 bool equal(const List<token>& a, const List<token>& b)
 {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const token& s, const token& t) {
@@ -26,7 +26,7 @@ bool equal(const List<token>& a, const List<token>& b)
     });
 }
 
-// "$name" and nothing else: the same as $name
+// True for "$name" and nothing else: it means the same as $name
 bool isQuotedMacro(const token& t)
 {
     return t.kind == token::quoted && t.text.size() > 1 && t.text[0] == '$' &&
@@ -96,14 +96,14 @@ void dictionaryParser::parseCondition(const token& name, source& in)
     if (in.conditions.empty()) fail("#" + name.text + " without an #if or #ifeq.", name);
     const token opening = in.conditions.back();
     in.conditions.pop_back();
-    // What stands behind #else is skipped if what stands before it was read
+    // if the part before #else was read, the part after it is skipped
     if (name.text != "else" || (opening.text != "else" && !skipBranch(opening, in))) return;
     token second = name;
     second.line = in.line;
     fail("A second #else for the condition at line " + std::to_string(opening.line) + ".", second);
 }
 
-// Moves behind the #else (true) or #endif (false) that belongs to `opening`
+// Moves to the place after the #else (true) or #endif (false) that belongs to `opening`
 bool dictionaryParser::skipBranch(const token& opening, source& in)
 {
     for (int depth = 0;;)

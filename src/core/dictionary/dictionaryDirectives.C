@@ -103,7 +103,7 @@ void dictionaryParser::enterFile(const word& path, const token& name)
     spend(500 + std::filesystem::file_size(path) / 16, name);
 }
 
-// The file that is to be read now; empty if it may be absent and is
+// Path of the file to read now; empty if it is absent and may be absent
 word dictionaryParser::enterInclude(const token& directive, source& in)
 {
     const token name = in.take();
@@ -122,8 +122,8 @@ void dictionaryParser::include(const token& directive, source& in)
     if (const word path = enterInclude(directive, in); !path.empty()) parseFile(path);
 }
 
-// key #include "file";  the file holds the value.  Also #calc, #eval and #neg; #codeStream { ... } is
-// carried along unread.
+// key #include "file";  the file has the value.  Also #calc, #eval and #neg.  #codeStream { ... } is
+// kept unread.
 void dictionaryParser::appendValueDirective(const token& key, const token& name, source& in,
                                             List<token>& value)
 {

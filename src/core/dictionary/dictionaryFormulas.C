@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// #calc "formula", #eval{ formula }, ${{ formula }} and #neg $name: values that are computed while reading
+// #calc "formula", #eval{ formula }, ${{ formula }} and #neg $name: values that are computed during reading
 #include "dictionaryParser.H"
 #include "expression.H"
 
@@ -18,7 +18,7 @@ token resultToken(const token& at, token::kindType kind, const word& text)
     return t;
 }
 
-// Without those of C++.  The brace that ends the formula ends a comment too, as in OpenFOAM
+// Removes the comments of C++.  The brace that ends the formula also ends a comment, as in OpenFOAM
 word withoutComments(const word& formula)
 {
     word text;
@@ -38,7 +38,7 @@ word withoutComments(const word& formula)
     return text;
 }
 
-// OpenFOAM compiles #calc as C++, where 5/2 is 2; here it is 2.5
+// True if OpenFOAM would give another value: it compiles #calc as C++, where 5/2 is 2; here it is 2.5
 bool isCutInCpp(const word& formula, scalar value)
 {
     return formula.find('/') != word::npos && value != std::floor(value) &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// $name and ${name}: what they stand for.
+// The values of $name and ${name}.
 #include "dictionaryParser.H"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ bool isNameCharacter(char c)
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.';
 }
 
-// The place in `text` of the brace that closes the one at i
+// Place in `text` of the brace that closes the one at i
 size_t closingBrace(const word& text, size_t i)
 {
     int depth = 0;
@@ -120,7 +120,7 @@ void dictionaryParser::appendMacro(const token& name, bool insideBraces, List<to
     value.insert(value.end(), words.begin(), words.end());
 }
 
-// In a list of dictionaries: ( { $base a 2; } )
+// Appends a dictionary to a list of dictionaries: ( { $base a 2; } )
 void dictionaryParser::appendDict(const dictionary::content& from, const token& at,
                                   List<token>& value)
 {
@@ -165,12 +165,12 @@ void dictionaryParser::parseMacroStatement(const token& name, source& in)
     else m = resolved(name);
     if (m.entry && m.entry->isDict())
     {
-        const dictionary copy = *m.entry->dict;  // it may enclose the place of use
+        const dictionary copy = *m.entry->dict;  // the dictionary may enclose this place
         merge(here(), *copy.content_, scopes_.size());
         if (in.peek().is(';')) in.take();
         return;
     }
-    // $name value;  the entry gives the keyword
+    // $name value;  the value of $name is the keyword
     const List<token>& words = m.entry ? m.entry->value : m.words;
     if (words.size() != 1)
         fail("$" + name.text + " is used as a keyword but holds more than one word.", name);
@@ -179,7 +179,7 @@ void dictionaryParser::parseMacroStatement(const token& name, source& in)
     parseEntry(key, in);
 }
 
-// The text that stands for $name in a formula or in the name of another macro
+// The text of $name in a formula or in the name of another macro
 word dictionaryParser::macroText(const token& name, bool forFormula)
 {
     const macro m = resolved(name);
@@ -193,7 +193,7 @@ word dictionaryParser::macroText(const token& name, bool forFormula)
     spend(text.size() / 8, name);
     if (!forFormula) return text;
     if (words.size() == 1 && readNumber(text, number) && text[0] == '-') return "(" + text + ")";
-    // (1 2 3) is written vector(1,2,3) in a formula
+    // in a formula (1 2 3) becomes vector(1,2,3)
     if (words.size() == 5 && words.front().is('(') && words.back().is(')'))
         return "vector(" + words[1].text + "," + words[2].text + "," + words[3].text + ")";
     return text;
@@ -231,7 +231,7 @@ dictionaryEntry* dictionaryParser::lookupIn(dictionary::content& from, const wor
         dictionaryEntry* e = patternsToo ? from.find(key) : from.exact(key);
         return e;
     };
-    if (dictionaryEntry* e = from.exact(path)) return e;  // a key may hold dots
+    if (dictionaryEntry* e = from.exact(path)) return e;  // a key may contain dots
     if (path.find_first_of("./") == word::npos) return find(path);
     for (size_t dot = path.find_first_of("./"); dot != word::npos;
          dot = path.find_first_of("./", dot + 1))
@@ -245,15 +245,15 @@ dictionaryEntry* dictionaryParser::lookupIn(dictionary::content& from, const wor
     return nullptr;
 }
 
-// a.b and a/b: sought here, then outwards; :a, /a and !a from the top; .a here only; ..a and ../a
-// one dictionary further out, and so on.  Keys that are patterns count for statements only.
+// Finds a.b and a/b here, then outwards; :a, /a and !a from the top; .a only here; ..a and ../a
+// one dictionary further out, and so on.  Keys that are patterns count only for statements.
 dictionaryEntry* dictionaryParser::lookup(const word& name, const token& at, bool patternsToo)
 {
     if (name.empty()) fail("A macro without a name.", at);
     if (name.size() > 1024) fail("The name of a macro has more than 1024 characters.", at);
     if (word(":/!").find(name[0]) != word::npos)
         return lookupIn(*scopes_.front(), name.substr(1), patternsToo);
-    size_t out = 0, i = 0;  // how many dictionaries outwards
+    size_t out = 0, i = 0;  // number of dictionaries outwards
     for (; name.compare(i, 3, "../") == 0; i += 3) ++out;
     bool fixed = out > 0;
     if (!fixed && name[0] == '.')

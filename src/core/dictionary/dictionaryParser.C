@@ -35,7 +35,7 @@ void dictionaryParser::fail(const word& message, const token& at) const
     throw fatalError(message, at.where(scopes_.back()->scope));
 }
 
-// Macros of macros and files of files could grow without bound
+// Limits the words that macros of macros and files of files add
 void dictionaryParser::spend(size_t weight, const token& at)
 {
     spent_ += weight;
@@ -45,7 +45,7 @@ void dictionaryParser::spend(size_t weight, const token& at)
              at);
 }
 
-// Each takes its memory
+// Limits the memory of regular expressions
 void dictionaryParser::spendOn(const regularExpression& pattern, const token& key)
 {
     patternBytes_ += pattern.bytes();
@@ -101,7 +101,7 @@ void dictionaryParser::parseStatements(source& in, const token* opening)
         else if (opensList(t, in)) parseList(t, in);
         else if (t.kind == token::plain || t.kind == token::quoted) parseEntry(t, in);
         else if (t.is('}')) fail("A closing brace } without an opening one.", t);
-        else if (!t.is(';'))  // a stray one does no harm
+        else if (!t.is(';'))  // a stray ; does no harm
             fail("A keyword is wanted here, found " + t.described() + ".", t);
     }
 }
@@ -131,8 +131,8 @@ dictionary dictionaryParser::newDict(const token& key)
     return d;
 }
 
-// A dictionary is read for itself and then merged into an earlier one: its macros do not see what
-// stands in that
+// A dictionary is read by itself and then merged into an earlier one: its macros do not see the entries
+// of that one
 void dictionaryParser::parseSubDict(const token& key, source& in)
 {
     const bool startsFile = scopes_.size() == 1 || files_.size() > 1;
@@ -148,7 +148,7 @@ void dictionaryParser::parseSubDict(const token& key, source& in)
     place(key, std::move(inner), in.line);
 }
 
-// The header describes the file and is no part of its contents
+// The header describes the file and is not a part of its contents
 void dictionaryParser::parseHeader(const token& key, source& in)
 {
     const token opening = in.take();
@@ -175,7 +175,8 @@ void dictionaryParser::parseHeader(const token& key, source& in)
 void dictionaryParser::parseValueTokens(const token& key, source& in, List<token>& value)
 {
     List<token> open;
-    bool inBlock = false;  // Gauss multivariateSelection { fu vanLeer; };  a value ends with it
+    // Gauss multivariateSelection { fu vanLeer; };  a value ends with its block
+    bool inBlock = false;
     for (;;)
     {
         const token t = in.take();
@@ -207,7 +208,7 @@ void dictionaryParser::parseValueTokens(const token& key, source& in, List<token
     }
 }
 
-// Makes room for an entry; null if an earlier one of that key stays
+// Makes room for an entry; null if an earlier entry of that key has to stay
 dictionaryEntry* dictionaryParser::free(const token& key, bool isDict)
 {
     if (const auto pattern = keyPattern(key)) spendOn(*pattern, key);

@@ -18,7 +18,7 @@ token named(const token& at, const word& text)
     return t;
 }
 
-// a,b=(c,d),e  without what stands in brackets: a  b=(c,d)  e
+// Splits a,b=(c,d),e at the commas outside of brackets: a  b=(c,d)  e
 List<word> argumentsIn(const word& text)
 {
     List<word> arguments(1);
@@ -32,7 +32,7 @@ List<word> argumentsIn(const word& text)
     return arguments;
 }
 
-// A name alone is a field
+// Sets the arguments of a function; a name without = is a field
 void setArguments(dictionary& function, const List<word>& arguments)
 {
     List<word> fields;
@@ -47,7 +47,7 @@ void setArguments(dictionary& function, const List<word>& arguments)
 
 }  // namespace
 
-// 2(...) or (...), in a part of a dictionary
+// True for 2(...) or (...) in a part of a dictionary
 bool dictionaryParser::opensList(const token& t, source& in) const
 {
     scalar count;
@@ -55,7 +55,7 @@ bool dictionaryParser::opensList(const token& t, source& in) const
            (t.is('(') || (t.isPlain() && readNumber(t.text, count) && in.peek().is('(')));
 }
 
-// Of dictionaries, a { ... } b { ... }, or of anything else
+// Reads a list of dictionaries, a { ... } b { ... }, or of other things
 void dictionaryParser::parseList(const token& first, source& in)
 {
     const token key = named(first, "entry" + std::to_string(here().entries.size()));
@@ -86,8 +86,8 @@ void dictionaryParser::parseList(const token& first, source& in)
     here().exact(key.text)->named = false;
 }
 
-// #includeFunc name, #includeFunc name(U, fields=(p U)): the dictionary in system/name or in
-// etc/caseDicts/postProcessing, which may stand there with its name around it
+// #includeFunc name, #includeFunc name(U, fields=(p U)): reads the dictionary in system/name or in
+// etc/caseDicts/postProcessing; in this file the name may stand around it
 void dictionaryParser::includeFunction(source& in)
 {
     const token first = in.take();
@@ -120,7 +120,7 @@ void dictionaryParser::includeFunction(source& in)
     place(keyToken, std::move(function), first.line);
 }
 
-// Those with blanks: (U, fields=(p U))
+// Arguments with blanks: (U, fields=(p U))
 word dictionaryParser::functionArguments(const token& name, source& in)
 {
     if (!in.peek().is('(') || in.peek().line != name.line) return "";

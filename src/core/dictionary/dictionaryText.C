@@ -28,7 +28,7 @@ void dictionaryText::parse()
                          tokens[i].where());
 }
 
-// Entries up to the bracket that closes their dictionary, or to the end
+// Reads entries up to the bracket that closes their dictionary, or to the end
 void dictionaryText::parseItems(const List<token>& tokens, size_t& i, item& into)
 {
     if (into.depth > 200)
@@ -42,7 +42,7 @@ void dictionaryText::parseItems(const List<token>& tokens, size_t& i, item& into
             const bool includes = t.text.find("nclude") != word::npos;
             if (includes && tokens[i + 1].kind != token::end)
                 includes_.push_back(tokens[i + 1].text);
-            // its words stand in its line
+            // the words of the directive are on its line
             for (++i;
                  tokens[i].kind != token::end && tokens[i].line == t.line && !tokens[i].is('}');)
                 ++i;
@@ -52,7 +52,7 @@ void dictionaryText::parseItems(const List<token>& tokens, size_t& i, item& into
     }
 }
 
-// 2(a { ... } b { ... }), or a list of anything else
+// Reads 2(a { ... } b { ... }), or a list of other things
 bool dictionaryText::parseList(const List<token>& tokens, size_t& i, item& into)
 {
     scalar count;
@@ -118,7 +118,7 @@ void dictionaryText::parseItem(const List<token>& tokens, size_t& i, item& into)
     into.items.push_back(std::move(e));
 }
 
-// All of that name, in order; a later dictionary merges into an earlier one
+// Finds all entries of that name, in order; a later dictionary merges into an earlier one
 void dictionaryText::collect(const item& in, const word& name, List<const item*>& found) const
 {
     for (const item& e : in.items)
@@ -139,8 +139,8 @@ void dictionaryText::collect(const item& in, const word& name, List<const item*>
     }
 }
 
-// Those an edit is meant for: under the keys as they are written.  A pattern that matches stands for other entries as
-// well, and is left alone
+// Finds the entries that an edit may change: those whose keys are written so.  A matching pattern also stands for other
+// entries and is left alone
 void dictionaryText::collectOwn(const item& in, const word& name, List<const item*>& found) const
 {
     for (const item& e : in.items)
@@ -227,7 +227,7 @@ List<word> dictionaryText::includes() const
     return includes_;
 }
 
-// A list whose number is not that of its entries
+// A list whose number differs from the number of its entries
 const dictionaryText::item* dictionaryText::miscounted(const item& in) const
 {
     for (const item& e : in.items)
@@ -242,7 +242,7 @@ const dictionaryText::item* dictionaryText::miscounted(const item& in) const
 namespace
 {
 
-// As the file's first line ends: with CR LF, or with LF
+// The text with the line ends of the file's first line: CR LF or LF
 word withLineEndsOf(const word& file, const word& text)
 {
     const size_t end = file.find('\n');
@@ -276,7 +276,7 @@ void dictionaryText::replace(size_t first, size_t last, const word& by)
     }
 }
 
-// The dictionaries of `name` that are there, from the innermost outwards, each with what of the name comes in it
+// The existing dictionaries of `name`, from the innermost outwards, each with the rest of the name inside it
 List<std::pair<const dictionaryText::item*, word>> dictionaryText::parentsOf(const word& name) const
 {
     List<std::pair<const item*, word>> parents;
@@ -309,7 +309,7 @@ word statement(const word& key, const word& value, const word& margin)
 void dictionaryText::set(const word& name, const word& value)
 {
     const bool toDict = !value.empty() && value[0] == '{';
-    // A dictionary in several parts is replaced as a whole
+    // a dictionary in several parts is replaced as a whole
     while (toDict && own(name).size() > 1) erase(*own(name).front());
     const List<const item*> all = own(name);
     const item* e = all.empty() ? nullptr : all.back();
@@ -343,7 +343,7 @@ void dictionaryText::insert(const item& parent, const word& key, const word& val
         return replace(firstToken_, firstToken_, statement(key, value, "") + "\n");
     size_t at = parent.items.empty() ? parent.valueFirst : parent.items.back().last;
     if (top && atEnd) at = text_.find_last_not_of(" \t\r\n") + 1;
-    // Behind a comment that ends the line, but not beyond the closing brace
+    // after a comment that ends the line, but not beyond the closing brace
     size_t lineEnd = std::min(text_.find('\n', at), text_.size());
     if (lineEnd > at && text_[lineEnd - 1] == '\r') --lineEnd;
     const size_t next = std::min(text_.find_first_not_of(" \t\r", at), text_.size());
@@ -351,7 +351,7 @@ void dictionaryText::insert(const item& parent, const word& key, const word& val
     const word margin(4 * parent.depth, ' ');
     word addition = "\n" + statement(key, value, margin);
     addition.pop_back();
-    // A brace in the same line comes into a line of its own
+    // a brace in the same line gets its own line
     const bool closes = !top && at < parent.valueLast && lineEnd > parent.valueLast;
     if (closes) addition += "\n" + margin.substr(4);
     if (top && at == text_.size()) addition += "\n";
@@ -362,7 +362,7 @@ void dictionaryText::insert(const item& parent, const word& key, const word& val
 void dictionaryText::erase(const item& e)
 {
     size_t first = e.first, last = e.last;
-    // with its line, if nothing else stands in it
+    // with its line, if nothing else is in it
     const size_t lineStart = first == 0 ? 0 : text_.rfind('\n', first - 1) + 1;
     const size_t lineEnd = std::min(text_.find('\n', last), text_.size());
     const bool alone = text_.find_first_not_of(" \t", lineStart) == first &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A dictionary as text, laid out as OpenFOAM does.
+// Writes a dictionary as text, in the layout of OpenFOAM.
 #include "dictionaryContent.H"
 
 #include <charconv>
@@ -21,7 +21,7 @@ word writtenKey(const dictionaryEntry& e)
     return plain ? e.key : inQuotes(e.key);
 }
 
-// Brackets close to what they hold: 3(1 2 3), [0 1 -1 0 0 0 0]
+// True if no blank stands between the two: brackets touch their contents, 3(1 2 3), [0 1 -1 0 0 0 0]
 bool isTight(const token& left, const token& right)
 {
     if (left.is('(') || left.is('[') || right.is(')') || right.is(']')) return true;

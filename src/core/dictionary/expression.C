@@ -25,7 +25,7 @@ struct expression::content
 namespace
 {
 
-// What vector(x, y, z) gives: one of its components at a time
+// vector(x, y, z) returns one of its components at a time
 thread_local int component = 0;
 thread_local scalar vectorScale = 1;
 
@@ -34,8 +34,8 @@ scalar vectorComponent(scalar x, scalar y, scalar z)
     return vectorScale * (component == 0 ? x : component == 1 ? y : z);
 }
 
-// In [0, 1), the same at each call with this seed, as OpenFOAM's formulas have it: the second number of the
-// linear congruential generator of 48 bits, the first in the digits below
+// A number in [0, 1), the same at each call with this seed, as in OpenFOAM's formulas: the second number of the
+// linear congruential generator of 48 bits, with the first number in the lower digits
 scalar randomNumber(scalar seed)
 {
     if (!std::isfinite(seed)) return seed;
@@ -72,7 +72,7 @@ void defineFunctions(mu::Parser& p)
         p.DefineFun(name, f([](scalar x) { return std::trunc(x); }));
     for (const char* name : {"scalar", "double"}) p.DefineFun(name, f([](scalar x) { return x; }));
     p.DefineFun("bool", f([](scalar x) { return truth(x != 0); }));
-    // OpenFOAM's: 0 is neither positive nor negative, and its sign is +
+    // as in OpenFOAM: 0 is neither positive nor negative, and its sign is +
     p.DefineFun("pos", f([](scalar x) { return truth(x > 0); }));
     p.DefineFun("neg", f([](scalar x) { return truth(x < 0); }));
     p.DefineFun("pos0", f([](scalar x) { return truth(x >= 0); }));
@@ -83,10 +83,10 @@ void defineFunctions(mu::Parser& p)
     p.DefineFun("hypot", g([](scalar x, scalar y) { return std::hypot(x, y); }));
     for (const char* name : {"mod", "fmod"})
         p.DefineFun(name, g([](scalar x, scalar y) { return std::fmod(x, y); }));
-    p.DefineFun("vector", vectorComponent, false);  // not to be folded into a constant
+    p.DefineFun("vector", vectorComponent, false);  // must not be folded into a constant
     p.DefineOprt("%", g([](scalar x, scalar y) { return std::fmod(x, y); }), mu::prMUL_DIV);
     p.DefineInfixOprt("!", f([](scalar x) { return truth(x == 0); }));
-    p.ClearConst();  // muParser's own are called _pi and _e
+    p.ClearConst();  // muParser's own constants are _pi and _e
     p.DefineConst("pi", std::numbers::pi);
     p.DefineConst("M_PI", std::numbers::pi);
     p.DefineConst("true", 1);
@@ -99,14 +99,14 @@ void replaceAll(word& text, const word& old, const word& by)
         text.replace(i, old.size(), by);
 }
 
-// Spellings of C++ and of OpenFOAM that muParser does not know
+// Replaces spellings of C++ and of OpenFOAM that muParser does not know
 word plainFormula(word text)
 {
     std::replace_if(
         text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
     for (const char* space : {"Foam::", "std::", "constant::mathematical::"})
         replaceAll(text, space, "");
-    // no blanks before and behind the parenthesis of a function
+    // no blanks before and after the parenthesis of a function
     static const RE2 before(R"((\w) +\()"), behind(R"(\( +)");
     RE2::GlobalReplace(&text, before, R"(\1()");
     RE2::GlobalReplace(&text, behind, "(");
@@ -213,7 +213,7 @@ List<scalar> components(const expression& formula, scalar scale)
     return c;
 }
 
-// A formula of vectors must be linear in them: twice the vectors give twice the result
+// A formula of vectors must be linear in them: twice the vectors must give twice the result
 List<scalar> evaluatedVector(const word& text, const fileLocation& where)
 {
     const expression formula(text, {}, {}, where);
@@ -243,7 +243,7 @@ size_t closing(const word& text, size_t i)
 List<scalar> evaluated(const word& text, const fileLocation& where)
 {
     word rest = text;
-    // mag(vector) and magSqr(vector) become numbers, from the innermost on
+    // mag(vector) and magSqr(vector) become numbers, the innermost first
     for (const word name : {"magSqr(", "mag("})
         for (size_t i = rest.rfind(name); i != word::npos;
              i = i ? rest.rfind(name, i - 1) : word::npos)

@@ -17,7 +17,7 @@ namespace
 
 constexpr size_t longestWord = 1024;  // as in OpenFOAM
 
-// Names of files for tokens to point to
+// Keeps the names of files that tokens point to
 const word* keptName(const word& name)
 {
     static std::mutex guard;
@@ -75,7 +75,7 @@ token tokenReader::next()
     return t;
 }
 
-// Moves behind the next `closing`; the text before it
+// Moves to the place after the next `closing`; returns the text before it
 word tokenReader::upTo(const word& closing, const word& what)
 {
     const int line = line_;
@@ -92,7 +92,7 @@ void tokenReader::skipBlank()
     while (i_ < s_.size())
     {
         if (isBlank(s_[i_])) line_ += s_[i_++] == '\n';
-        else if (at("\xEF\xBB\xBF")) i_ += 3;  // byte order mark: also between files put together
+        else if (at("\xEF\xBB\xBF")) i_ += 3;  // byte order mark: also inside, if files were joined
         else if (at("//")) i_ = std::min(s_.find('\n', i_), s_.size());
         else if (at("/*")) i_ += 2, upTo("*/", "comment /*");
         else return;
@@ -153,7 +153,7 @@ token tokenReader::dollar()
     return make(token::directive, "eval", line);
 }
 
-// The text from here, a {, to the brace that closes it
+// The text from the { here to the brace that closes it
 word tokenReader::braced(const word& what)
 {
     const int line = line_;
@@ -168,7 +168,7 @@ word tokenReader::braced(const word& what)
     fail("The " + what + " begun here is never closed.", line);
 }
 
-// \" is a quote and \ before a line's end carries on the string; any other backslash stays, for
+// \" is a quote, and \ before a line end continues the string; any other backslash stays, for
 // regular expressions
 token tokenReader::quotedString()
 {
@@ -199,8 +199,8 @@ bool tokenReader::endsWord(size_t i) const
     return c == '/' && i + 1 < s_.size() && (s_[i + 1] == '/' || s_[i + 1] == '*');
 }
 
-// Brackets belong to a word if they close inside it: div(phi,U).  Otherwise the word ends
-// before the one left open, so that `uniform(0 0 0)` and `[m]` are read as meant.
+// Brackets belong to a word if they close inside it: div(phi,U).  Otherwise the word ends before
+// the bracket that is left open, so that `uniform(0 0 0)` and `[m]` are read correctly.
 word tokenReader::readWord()
 {
     const size_t begin = i_;
@@ -219,7 +219,7 @@ word tokenReader::readWord()
     return s_.substr(begin, i_ - begin);
 }
 
-// A number ends at any bracket or comma, and before a macro: 3(1 2 3)
+// A number ends at any bracket or comma and before a macro: 3(1 2 3)
 word tokenReader::readNumberOrWord()
 {
     const size_t begin = i_;

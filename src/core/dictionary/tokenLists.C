@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Typed lists of numbers: List<vector> 3((1 2 3) ...), ASCII or binary.  They are kept as doubles: a field of a
-// million values must not become a million words.
+// Typed lists of numbers: List<vector> 3((1 2 3) ...), ASCII or binary.  They are kept as doubles, so that a field of a
+// million values does not become a million words.
 #include "token.H"
 
 #include <algorithm>
@@ -80,7 +80,7 @@ bool tokenReader::opensTypedList(const token& t) const
     return t.is('(') && componentsOf(listType(type_)) > 0 && readCount(count_, n);
 }
 
-// Behind the ( of a typed list; where it is not one of plain numbers, the ( stays what it is
+// Reads the list after its (.  If it has other than plain numbers, the ( stays a token
 void tokenReader::readTypedList(token& t)
 {
     const word type = listType(type_);
@@ -116,7 +116,7 @@ void tokenReader::readBinaryList(token& t, const word& type, size_t n)
 bool tokenReader::readAsciiList(token& t, size_t n, size_t nComponents)
 {
     const char *p = s_.data() + i_, *end = s_.data() + s_.size();
-    if (n > s_.size()) return false;  // every element takes a character
+    if (n > s_.size()) return false;  // every element takes at least one character
     word values;
     values.reserve(std::min(n * nComponents, size_t(end - p) / 2 + 1) * sizeof(scalar));
     for (size_t k = 0; k < n; ++k)
@@ -140,7 +140,7 @@ bool tokenReader::readAsciiList(token& t, size_t n, size_t nComponents)
 namespace
 {
 
-// (a b c), one element a line where they are many
+// (a b c), with one element per line if there are many
 word writtenNumbers(const word& values, size_t count)
 {
     const size_t n = values.size() / sizeof(scalar), perElement = count ? n / count : 1;

@@ -160,7 +160,7 @@ void valueReader::read(tensor& t)
 namespace
 {
 
-constexpr size_t largestUniformList = 100000000;  // 1000000000{0} is a slip of the pen
+constexpr size_t largestUniformList = 100000000;  // 1000000000{0} is a typing error
 
 template <class T>
 constexpr size_t nComponents = std::is_same_v<T, vector> ? 3

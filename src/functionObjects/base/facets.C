@@ -13,11 +13,11 @@ namespace ispf
 namespace
 {
 
-constexpr scalar longestEdge = 1.5;  // [dx] the fluid is looked at in the middle of each triangle
-constexpr scalar slender = 8;        // longest over shortest edge: halving would cut the width, too
-constexpr scalar small = 0.25;       // [dx^2] in three dimensions; edges are cheap in two
-constexpr scalar alike = 0.9;        // cosine between normals of what becomes one
-constexpr scalar offset = 0.37;      // [dx] of the cells, as walls often lie on multiples of dx
+constexpr scalar longestEdge = 1.5;  // [dx] the fluid is taken at the middle of each triangle
+constexpr scalar slender = 8;        // longest over shortest edge: halving would also cut the width
+constexpr scalar small = 0.25;   // [dx^2] in three dimensions; in two dimensions edges are cheap
+constexpr scalar alike = 0.9;    // least cosine between normals of pieces that are joined
+constexpr scalar offset = 0.37;  // [dx] of the cells, because walls often lie on multiples of dx
 
 using corners = std::array<vector, 3>;
 
@@ -37,7 +37,7 @@ bool isSlender(const corners& t, scalar dx)
     return most > longestEdge * dx && most > slender * least;
 }
 
-// A slender triangle in slices along its shortest edge, each of 1.5 dx; in four while that edge is longer
+// Cuts a slender triangle along its shortest edge into slices of 1.5 dx; into four triangles while that edge is longer
 void cut(const corners& t, scalar dx, List<facet>& facets)
 {
     int shortest = 0;

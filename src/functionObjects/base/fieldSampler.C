@@ -12,7 +12,7 @@ namespace
 
 constexpr scalar none = std::numeric_limits<scalar>::quiet_NaN();
 
-// The particles lie all around the point: their weighted mean is there, and hardly a weight negative
+// True if the particles lie all around the point: their weighted mean is near it, and weights are hardly negative
 bool interpolates(const List<pointSampler::contribution>& weights, const List<vector>& positions,
                   const vector& point, scalar dx)
 {
@@ -45,7 +45,7 @@ const List<vec4>& fieldSampler::places() const
     return frame_ == frame::rest ? case_.cloud.vectors.at("x0") : case_.cloud.x;
 }
 
-// Chosen particles and images in the box
+// Collects the chosen particles and images in the box
 void fieldSampler::gather(const vector& low, const vector& high, List<vector>& positions)
 {
     const auto inside = [&](const vector& x) {

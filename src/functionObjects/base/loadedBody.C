@@ -21,7 +21,7 @@ List<char> allFluid(const particleCloud& cloud)
 loadedBody loadedBody::wall(const word& patch, const fsiCase& c, const fileLocation& where)
 {
     loadedBody b(patch, c);
-    c.walls->surfaceOf(patch, c.cloud, where);  // is there such a wall?
+    c.walls->surfaceOf(patch, c.cloud, where);  // fatalError if there is no such wall
     b.isWall_ = true;
     b.parts_.push_back({nullptr, allFluid(c.cloud)});
     return b;
@@ -73,7 +73,7 @@ void loadedBody::eachSide(const std::function<void(triSurface, const List<char>&
         {
             p.tracked->update(case_->cloud.x);
             s = p.tracked->now();
-            s.flip();  // its normals point into the fluid
+            s.flip();  // the normals of tracked surfaces point into the fluid
         }
         if (isWall_) s = case_->walls->surfaceOf(name_, case_->cloud);
         visit(s, p.zones);

@@ -11,7 +11,7 @@ namespace ispf
 namespace
 {
 
-// A rigid particle, or an image that does not move as its position is mirrored
+// True for a rigid particle, or an image whose velocity is not mirrored like its position
 bool standsForWall(const particleCloud& cloud, label g)
 {
     if (g < cloud.n()) return false;
@@ -26,7 +26,7 @@ bool isSolid(const particleCloud& cloud, label j)
     return owner >= 0 && !cloud.isFluid(owner);
 }
 
-// Solids, and the fluid that has a neighbour of a body
+// Marks solids, and fluid that has a neighbour of a body
 List<char> besideBodies(const particleCloud& cloud, scalar support)
 {
     pointGrid bodies(support);
@@ -40,7 +40,7 @@ List<char> besideBodies(const particleCloud& cloud, scalar support)
     return beside;
 }
 
-// Which body a neighbour of the fluid belongs to
+// Finds the body to which a neighbour of the fluid belongs
 class bodyFinder
 {
 public:
@@ -59,7 +59,7 @@ public:
     const List<word>& walls() const { return walls_; }
     label n() const { return label(walls_.size() + cloud_.zones.size()); }
 
-    // The wall, or the zone behind all of them; -1: none
+    // Index of the wall, or number of walls plus zone; -1: no body
     label of(label i, label j) const
     {
         if (isSolid(cloud_, j)) return label(walls_.size()) + cloud_.zone[cloud_.ownerOf(j)];
@@ -79,7 +79,7 @@ private:
     List<surfaceSearch> surfaces_;
 };
 
-// On each body from one particle of the fluid
+// Adds up the load on each body from one fluid particle
 class pairSum
 {
 public:
@@ -135,7 +135,7 @@ pairFriction::pairFriction(const fsiCase& c, const presentState& s)
 {
     const particleCloud& cloud = s.cloud;
     const pairSum sum(c, s);
-    constexpr label block = 4096;  // summed in their order: the same with any number of threads
+    constexpr label block = 4096;  // summed in their order: the same for any number of threads
     List<List<load>> perBlock((cloud.n() + block - 1) / block, List<load>(sum.bodies().n()));
     parallelFor(
         label(perBlock.size()),

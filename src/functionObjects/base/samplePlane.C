@@ -11,7 +11,7 @@ namespace ispf
 namespace
 {
 
-// Neighbours within 2 dx take part; a point further than dx from any particle is blank
+// Neighbours within 2 dx count; a point further than dx from any particle is blank
 constexpr scalar radiusFactor = 2, blankFactor = 1;
 
 word number(scalar value)
@@ -77,7 +77,7 @@ samplePlane::samplePlane(const word& name, const dictionary& dict, const particl
 struct samplePlane::image
 {
     label i;
-    size_t image;  // which symmetry planes it is mirrored by
+    size_t image;  // bits of the symmetry planes that mirror it
     vector x;
 };
 

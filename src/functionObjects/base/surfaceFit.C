@@ -10,12 +10,14 @@ namespace ispf
 namespace
 {
 
-constexpr scalar farthest = 1.5;  // [dx] the nearest particle of a facet that is covered
+// [dx] largest distance of the nearest particle of a covered facet
+constexpr scalar farthest = 1.5;
 constexpr scalar behind =
     0.1;  // [dx] a particle further beyond the facet's plane is on the other side
-constexpr scalar dependent = 1e-3;  // a column of the fit that hardly differs from the others
+// a column of the fit is dependent if less than this share remains beside the others
+constexpr scalar dependent = 1e-3;
 
-// Monomials of the second order and below, or of the first: 1, x, y (z), x^2, xy, ...
+// Monomials up to the second or the first order: 1, x, y (z), x^2, xy, ...
 template <int nColumns>
 Eigen::Matrix<scalar, nColumns, 1> monomials(const vector& d)
 {
@@ -30,7 +32,7 @@ Eigen::Matrix<scalar, nColumns, 1> monomials(const vector& d)
     return m;
 }
 
-// x of A x = b, A symmetric, the largest pivot first; false where one of them vanishes beside the first
+// Solves A x = b for symmetric A, the largest pivot first; false if a pivot vanishes against the first
 template <int n>
 bool eliminate(Eigen::Matrix<scalar, n, n>& A, Eigen::Matrix<scalar, n, 4>& b)
 {
@@ -103,7 +105,7 @@ fluidAt surfaceFit::fit(const facet& f) const
     return result;
 }
 
-// False where the particles do not determine all coefficients
+// False if the particles do not determine all coefficients
 template <int nColumns>
 bool surfaceFit::solve(const List<neighbour>& near, fluidAt& result) const
 {

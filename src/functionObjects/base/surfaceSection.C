@@ -19,7 +19,7 @@ scalar cross(const point2& a, const point2& b)
     return a[0] * b[1] - a[1] * b[0];
 }
 
-// Enters the segment from a to b into the radii of the angles it spans
+// Adds the segment from a to b to the radii of the angles that it spans
 void addSegment(const point2& a, const point2& b, List<scalar>& radii)
 {
     const label n = label(radii.size());
@@ -31,10 +31,10 @@ void addSegment(const point2& a, const point2& b, List<scalar>& radii)
     {
         const scalar angle = (k + 0.5) * step;
         const scalar along = cross({std::cos(angle), std::sin(angle)}, b - a);
-        if (std::abs(along) < 1e-12 * (b - a).norm()) continue;  // runs through the axis
+        if (std::abs(along) < 1e-12 * (b - a).norm()) continue;  // it runs through the axis
         scalar& r = radii[((k % n) + n) % n];
         const scalar hit = cross(a, b - a) / along;
-        if (hit >= 0 && !(hit >= r)) r = hit;  // also if there is none yet
+        if (hit >= 0 && !(hit >= r)) r = hit;  // also if there is no radius yet
     }
 }
 

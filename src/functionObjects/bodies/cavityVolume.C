@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Volume enclosed by a surface that the solid carries along, closed over its opening; of the whole
-// body where symmetry planes cut it [m3; m2 in two dimensions].  surface: constant/triSurface/<surface>.stl, see
+// Volume enclosed by a surface that moves with the solid, closed over its opening; of the whole
+// body [m3; m2 in two dimensions].  surface: constant/triSurface/<surface>.stl, see
 // trackedSurface.H.
 //
 //     cavity { type cavityVolume; surface wall_to_chamber; }
 //
-// changeOverRest reads NaN where the surface is flat at rest.
+// changeOverRest is NaN if the surface is flat at rest.
 #include "functionObject.H"
 
 #include "dataFile.H"
@@ -37,7 +37,7 @@ public:
     {
         surface_.update(case_.cloud.x);
         const scalar volume = surface_.enclosedVolume();
-        // a flat one, which holds less than a shred of a particle, has no volume to compare with
+        // a flat surface encloses hardly any volume at rest to compare with
         const bool flat = std::abs(rest_) < 1e-6 * case_.cloud.volume();
         file_.begin(case_.time.value())
             << volume << volume - rest_ << (flat ? std::nan("") : (volume - rest_) / rest_);

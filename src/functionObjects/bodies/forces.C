@@ -3,9 +3,9 @@
 //
 //     drag { type forces; patches (lid walls); zones (wall); CofR (0 0 0); pRef 0; }
 //
-// See bodyLoad.H.  force.dat and moment.dat hold the sum over all bodies as OpenFOAM's; where there are several,
-// force_<body>.dat and moment_<body>.dat each of them.  `covered` is the share of the area that has particles before
-// it; the rest counts nothing.  Of the modelled part where symmetry planes cut a body.
+// See bodyLoad.H.  force.dat and moment.dat have the sum over all bodies, as in OpenFOAM.  With several bodies,
+// force_<body>.dat and moment_<body>.dat have each of them.  `covered` is the share of the area with particles before
+// it; the rest does not count.  Values are of the modelled part where symmetry planes cut a body.
 #include "functionObject.H"
 
 #include "bodyLoad.H"

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Particles that are on the wrong side of a surface: fluid that has gone into or through a wall.
+// Counts particles on the wrong side of a surface: fluid that has gone into or through a wall.
 //
-//     leaks { type surfaceLeaks; surface wall_to_chamber; zones (chamber); }   // carried by the solid
-//     leaks { type surfaceLeaks; patches (walls); phase fluid; }               // walls that stand still
+//     leaks { type surfaceLeaks; surface wall_to_chamber; zones (chamber); }   // moves with the solid
+//     leaks { type surfaceLeaks; patches (walls); phase fluid; }               // walls at rest
 //
-// The right side is the one on which most of the chosen particles near the surface are at the start.
-// Where the surface's rim is nearest there are no sides, and nothing is counted.
-// Columns, of the model, not the whole body: wrongSide, their number; through, those by more than half
-// a spacing, which cannot be the particle size's doing; deepest [m], how far the worst is beyond;
-// putBack, how often a particle has been put back off these patches since the case began: rigid walls
-// are guarded, so that the first three are kept small by force.
+// The right side is the side with most of the chosen particles near the surface at the start.
+// Where the rim of the surface is nearest, sides are not defined and nothing is counted.
+// Columns, for the model without its images: wrongSide, their number; through, the number beyond by more than half
+// a spacing, more than the size of a particle explains; deepest [m], the largest distance beyond;
+// putBack, how often a particle has been put back off these patches since the case began.  Rigid walls
+// are guarded, which keeps the first three small.
 #include "functionObject.H"
 
 #include "dataFile.H"
@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    // Its name
+    // Reads the name of the surface
     word readSurface(const dictionary& dict)
     {
         if (dict.found("surface") == dict.found("patches"))
@@ -116,7 +116,7 @@ private:
         return n;
     }
 
-    // Signed distances of the chosen particles no further than `radius`
+    // Calls visit with the signed distances of the chosen particles within `radius`
     template <class Visit>
     void forDistances(scalar radius, const Visit& visit)
     {
@@ -138,7 +138,7 @@ private:
     }
 
     std::unique_ptr<trackedSurface> carried_;
-    List<word> patches_;  // if it is not carried
+    List<word> patches_;  // empty if the surface moves with the solid
     surfaceSearch search_;
     particleSelection chosen_;
     dataFile file_;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fluid pressure, velocity and wall shear stress on walls, on the surfaces of solid zones or on any surface at rest,
-// triangle by triangle, a file per body and time: postProcessing/<name>/<time>/<body>.<ending>
+// Fluid pressure, velocity and wall shear stress on walls, on surfaces of solid zones or on any surface at rest,
+// triangle by triangle.  One file per body and time: postProcessing/<name>/<time>/<body>.<ending>
 //
 //     wallLoad { type surfaceSample; patches (walls); zones (wall); surfaces (section); surfaceFormat vtk; }
 //
-// surfaceFormat: vtk, the default, which ParaView opens, or raw, a table of x y z p U wallShearStress.
-// wallShearStress is the traction mu (grad U + grad U^T) n less its normal part, of the fluid on the surface.
-// Triangles without particles before them read NaN, in vtk 0 with `covered` 0.  By default at the times at which
+// surfaceFormat: vtk (the default, for ParaView) or raw, a table of x y z p U wallShearStress.
+// wallShearStress is the traction mu (grad U + grad U^T) n of the fluid on the surface without its normal part.
+// Triangles without particles before them have NaN, in vtk 0 with `covered` 0.  By default it writes when
 // particles are written.
 #include "functionObject.H"
 

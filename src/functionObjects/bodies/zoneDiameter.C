@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Diameter of a surface that the solid carries along, inner or outer, where a plane fixed in space
-// cuts it: mean, least and greatest over the angle, and the mean's change over its value at rest.
+// Inner or outer diameter of a surface that moves with the solid, where a plane fixed in space
+// cuts it: mean, smallest and largest value over the angle, and the change of the mean over its value at rest.
 //
 //     midDiameter { type zoneDiameter; surface wall_to_chamber; point (0 0 10e-3); axis (0 0 1);
 //                   band 1e-3; nAngles 360; }
 //
-// With a band the radii are the mean of five planes spread over it.  Symmetry planes that hold the
-// axis complete the section; without an opposite side an angle counts nothing.
+// With a band the radii are the mean of five planes over it.  Symmetry planes that contain the
+// axis complete the section.  An angle without an opposite side does not count.
 #include "functionObject.H"
 
 #include "dataFile.H"

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Energies and powers of all particles but those beyond open faces, of the whole body where symmetry planes cut it
-// [J], [W], per metre in two dimensions:
+// Energies and powers of all particles except those beyond open faces, of the whole body
+// [J], [W], in two dimensions per metre:
 //
 //     balance { type energy; }
 //
 //     kinetic       sum 1/2 rho V u^2
 //     elastic       of the structure
 //     potential     - sum rho V b.x, b the body force of each zone
-//     dissipation   what the viscosity that is solved takes out, (2.14); pairs with images count half, the other half is
-//                   the image's; less mu int u.W n dA on turning walls, W the gradient of their velocity: 2 mu int D:D dV
-//     wallPower     what moving walls put in: minus the load on them, see bodyLoad.H, times their velocity, of the step
-//                   that led there
-//     openPower     what comes in through open faces: - int (p + 1/2 rho u^2 - rho b.x) u.n - u.tau.n dA, by surfaceFit
+//     dissipation   power that viscosity takes, (2.14).  Pairs with images count half, the other half belongs to the image.
+//                   On turning walls less mu int u.W n dA, W the gradient of their velocity: then it is 2 mu int D:D dV
+//     wallPower     power that moving walls add: minus the load on them, see bodyLoad.H, times their velocity in the
+//                   last step
+//     openPower     power through open faces: - int (p + 1/2 rho u^2 - rho b.x) u.n - u.tau.n dA, by surfaceFit
 //     dissipated, wallWork, openWork    their integrals since the case began, by the trapezoidal rule over the steps
-//                   at which it is executed
+//                   in which the function object executes
 //
-// These are measured on the state that there is.  The energy ledger's terms follow, walls to leftOver, as
-// the steps have summed them (energyLedger.H): kinetic + elastic + potential is what it was at the start plus their sum.
+// These values are measured on the present state.  The terms of the energy ledger follow, walls to leftOver, as
+// summed over the steps (energyLedger.H): kinetic + elastic + potential is its value at the start plus their sum.
 #include "functionObject.H"
 
 #include "bodyLoad.H"
@@ -29,7 +29,7 @@ namespace ispf
 namespace
 {
 
-// The viscosity that the step solves, of the particles before open faces
+// Power of the viscosity that the step solves, for the particles before open faces [W]
 scalar dissipationOf(const presentState& s, scalar mu)
 {
     viscousPairs viscous;
@@ -136,8 +136,8 @@ private:
         return {whole * p.dissipation, whole * p.wallPower, whole * p.openPower};
     }
 
-    // A rigid body's power.  The pair sum is mu int |grad u|^2 dV; what heats the fluid is mu int u.W n dA less where a
-    // wall turns, W its velocity's gradient
+    // Adds the power of a rigid wall.  The pair sum gives mu int |grad u|^2 dV.  Where a wall turns, the heat is less by
+    // mu int u.W n dA, W the gradient of the wall's velocity
     void addWall(const loadedBody& wall, const pairFriction& friction, powers& p) const
     {
         const auto velocity = [&](const vector& x) {
@@ -170,7 +170,7 @@ private:
         return power;
     }
 
-    // What pushes the fluid [m/s^2]
+    // Body force on the fluid [m/s^2]
     vector fluidForce() const
     {
         const List<vector> b = case_.bodyForceAt(case_.time.value());

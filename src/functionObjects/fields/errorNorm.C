@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Difference of U and p from what is known exactly, given as formulas of x y z [m], the time t [s], and of the case's
+// Difference of U and p from an exact solution.  This is given as formulas of x y z [m], the time t [s], and the case's
 // rho [kg/m^3], mu [Pa s], nu [m^2/s] and dx [m]:
 //
 //     error
@@ -7,13 +7,13 @@
 //         type    errorNorm;
 //         U       ("sin(2*pi*y)*exp(-4*pi^2*nu*t)" 0 0);
 //         p       "0";
-//         mean    free;           // of p: known up to a constant; default fixed
+//         mean    free;           // the level of p is not known; default fixed
 //         phase   fluid;          // or zones (a b)
 //     }
 //
 //     L2      sqrt(sum V |f - exact|^2 / sum V)
 //     max     the largest |f - exact|
-//     exact   sqrt(sum V |exact|^2 / sum V), to make the others relative
+//     exact   sqrt(sum V |exact|^2 / sum V), to make the other two relative
 #include "functionObject.H"
 
 #include "dataFile.H"
@@ -27,7 +27,7 @@ namespace ispf
 namespace
 {
 
-// One field's exact components
+// Formulas for the exact components of a field
 struct exactField
 {
     word name;
@@ -117,7 +117,7 @@ private:
         for (vector& v : values) v -= sum / scalar(values.size());
     }
 
-    static scalar rootMeanSquare(const List<vector>& values)  // of particles of one volume
+    static scalar rootMeanSquare(const List<vector>& values)  // for particles of equal volume
     {
         scalar sum = 0;
         for (const vector& v : values) sum += v.squaredNorm();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fields along a line, a file per time: postProcessing/<name>/<time>/line.dat
+// Fields along a line, one file per time: postProcessing/<name>/<time>/line.dat
 //
 //     above { type lineProfile; start (-8e-3 0 13.5e-3); end (8e-3 0 13.5e-3); nPoints 65;
 //             fields (U p); zones (chamber); }
 //
-// By default at the times at which particles are written.  Points without particles read NaN.
+// By default it writes when particles are written.  Points without particles have NaN.
 #include "functionObject.H"
 
 #include "dataFile.H"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Least and greatest value of fields and where they are; of a vector field its magnitude.
+// Smallest and largest value of fields and their places; for a vector field of its magnitude.
 //
 //     extremes { type minMax; fields (U p); phase all; }     // or zones (a b)
 #include "functionObject.H"
@@ -32,7 +32,7 @@ public:
         file_.begin(case_.time.value());
         for (const particleField& f : fields_)
         {
-            scalar least = std::nan(""), most = least;  // without particles they stay so
+            scalar least = std::nan(""), most = least;  // stays NaN without particles
             vector lowAt = vector::Constant(least), highAt = lowAt;
             for (label i = 0; i < case_.cloud.n(); ++i)
             {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Momentum of particles, as they are: of one copy where symmetry planes or cyclic patches make more; without force from
-// outside it stays.  In two dimensions per metre:
+// Momentum of the particles; only of one copy where symmetry planes or cyclic patches make more.  Without a force from
+// outside it is constant.  In two dimensions per metre:
 //
 //     motion { type momentum; phase all; }        // or zones (a b)
 //
@@ -42,7 +42,7 @@ public:
             const vector x = cloud.x[i].xyz(), U = cloud.Up[i].xyz();
             linear += mass * U, angular += mass * x.cross(U), centre += x, ++n;
         }
-        // without particles there is no centre
+        // without particles
         file_.begin(case_.time.value()) << linear << angular << vector(centre / scalar(n));
         file_.endRow();
     }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Volume flow, of the whole body where symmetry planes cut it [m3/s; m2/s in two dimensions]:
+// Volume flow through a patch or a surface, of the whole body [m3/s; m2/s in two dimensions]:
 //
 //     outflow { type patchFlux; patch outside; }      // a patch of constant/boundary
 //     nozzle  { type patchFlux; surface nozzleExit; zones (chamber); }   // any surface in the fluid
 //
-// patch: what crosses it by the boundary's own books: the sweep of a moving wall, and the flux that the divergence balances on an
-//     open face (doc/theory (4.4); with DLN the mean over the step).  The fluxes of all patches sum to the sources.
-//     `flux` in the last step and `volume` since the case began, out is positive; and the particles that the modelled
-//     part of an open face has `created` and `deleted`.  Of a cyclic patch: the fluid that passes, positive along the
-//     separation.  Walls that stand and symmetry planes pass nothing: zero.
-// surface: the integral of U.n over constant/triSurface/<surface>.stl, U fitted to the particles in the middle of its facets
-//     (facets.H); positive along their normals; in two dimensions per metre along z.  `covered` is the share of its area
-//     that particles are near enough to; the rest counts nothing.
+// patch: the flow that the boundary itself counts.  For a moving wall it is the swept volume; for an open face the flux that
+//     balances the divergence (doc/theory (4.4); with DLN the mean over the step).  The fluxes of all patches sum to the
+//     sources.  Columns: `flux` in the last step and `volume` since the case began, positive out of the fluid; numbers of
+//     particles `created` and `deleted` in the modelled part of an open face.  For a cyclic patch: the fluid that passes,
+//     positive along the separation.  Walls at rest and symmetry planes have zero.
+// surface: the integral of U.n over constant/triSurface/<surface>.stl, with U fitted to the particles at the middle of its
+//     facets (facets.H).  Positive along their normals; in two dimensions per metre along z.  `covered` is the share of the
+//     area with particles near enough; the rest does not count.
 #include "functionObject.H"
 
 #include "dataFile.H"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fields on a regular grid of a plane, for maps, and the particles within a slice; files
+// Fields on a regular grid of a plane, for maps, and the particles within a slice.  Files
 // postProcessing/<name>/<time>/<name>.dat and <name>.slice.dat:
 //
 //     diametral { type planeMap; point (0 0 0); normal (0 1 0); xAxis (1 0 0); ... }  // samplePlane.H
 //
-// By default at the times at which particles are written.
+// By default it writes when particles are written.
 #include "functionObject.H"
 
 #include "fileNames.H"

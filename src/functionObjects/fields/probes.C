@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fields at fixed points, over time; one file a field, as OpenFOAM's probes:
+// Fields at fixed points over time; one file per field, as OpenFOAM's probes:
 //
 //     chamber { type probes; fields (p U); probeLocations ((0 0 10e-3)); zones (chamber); }
 //
-// fields: U p (default), or what a model has registered.  zones, radius: see fieldSampler.H.  A probe
-// outside them reads NaN.  Points of solids that move with them are given where they are at rest:
+// fields: U p (default), or fields that a model has registered.  zones, radius: see fieldSampler.H.  A probe
+// outside them has NaN.  Points that move with a solid are given at rest:
 //
 //     tip { type materialProbes; probeLocations ((0.6 0.2 0)); zones (flag); }
 //
-// fields: displacement (default), U, p, or what a model has registered.
+// fields: displacement (default), U, p, or fields that a model has registered.
 #include "functionObject.H"
 
 #include "dataFile.H"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One number for a field in a volume, as OpenFOAM's function object of that name has it:
+// One number for a field in a volume, as OpenFOAM's function object of this name:
 //
 //     mean { type volFieldValue; operation volAverage; fields (U p); phase fluid; }     // or zones (a b)
 //
-//     volAverage      mean over the particles, which have one volume
+//     volAverage      mean over the particles, which all have the same volume
 //     volIntegrate    sum of value times volume [m^3; m^2 in two dimensions], of the modelled part
 //     sum             sum over the particles, of the modelled part
 #include "functionObject.H"

@@ -60,7 +60,7 @@ List<functionObjectList::item> functionObjectList::read(const dictionary& functi
 functionObjectList::item functionObjectList::make(const word& name, const dictionary& dict) const
 {
     item i;
-    dict.found("libs"), dict.found("log"), dict.found("region");  // OpenFOAM's
+    dict.found("libs"), dict.found("log"), dict.found("region");  // entries of OpenFOAM
     i.object = functionObject::New(name, dict, case_);
     i.execute.control = dict.chooseOrDefault("executeControl", controls, "timeStep");
     i.execute.interval =
@@ -142,7 +142,7 @@ bool functionObjectList::within(const item& i) const
     return case_.time.value() >= i.from - slack && case_.time.value() <= i.to + slack;
 }
 
-// How often the interval has passed; negative if the control is no matter of an interval
+// Number of intervals that have passed; negative if the control has no interval
 scalar functionObjectList::multiples(const trigger& t) const
 {
     const Time& time = case_.time;
@@ -163,10 +163,11 @@ bool functionObjectList::due(trigger& t) const
     return t.passed > before;
 }
 
-// Where they are now to the last digit, and as they have moved in the step that led here: what a state tells as well
+// Puts walls to their present places, to the last digit, with the motion of the last step: the same as after reading a state
 void functionObjectList::placeWalls()
 {
-    if (items_.empty()) return;  // nobody asks, and tables need not cover the step behind
+    // no function object needs walls, and tables need not cover the last step
+    if (items_.empty()) return;
     const scalar now = case_.time.value();
     if (case_.time.timeIndex() == 0) case_.walls->setStep(now, case_.stepEnd());
     else case_.walls->setStepBehind(now - case_.time.deltaTBehind(), now);

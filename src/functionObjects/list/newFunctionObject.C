@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The function objects that there are.  A new one adds its two lines here
+// The list of function objects.  A new one adds its two lines here
 #include "functionObject.H"
 
 namespace ispf

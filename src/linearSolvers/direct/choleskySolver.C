@@ -17,17 +17,17 @@ struct choleskySolver::cholmod
     List<SuiteSparse_long> start, row;  // lower triangle by columns
     List<scalar> value;
     constantNullSpace nullSpace;
-    supernodalFactor single;  // of the block form
+    supernodalFactor single;  // factor of the block form
     mutable List<float> singleRight, singleSolution;
     cholmod_dense* right = nullptr;
-    // Kept by cholmod_l_solve2 from call to call
+    // cholmod_l_solve2 keeps these from call to call
     cholmod_dense *solution = nullptr, *scratch1 = nullptr, *scratch2 = nullptr;
 
     cholmod()
     {
         cholmod_l_start(&common);
         common.print = 0;
-        common.final_ll = true;  // L L^T, which sees that a matrix is not positive definite
+        common.final_ll = true;  // L L^T: it detects a matrix that is not positive definite
         common.nmethods = 1;
         common.method[0].ordering = CHOLMOD_METIS;
     }
@@ -53,7 +53,7 @@ struct choleskySolver::cholmod
 choleskySolver::choleskySolver() : cholmod_(std::make_unique<cholmod>()) {}
 choleskySolver::~choleskySolver() = default;
 
-// Copies the lower triangle; true if the pattern is a new one
+// Copies the lower triangle; true if the pattern has changed
 bool choleskySolver::cholmod::setMatrix(const csrMatrix& A)
 {
     const label n = A.size();

@@ -31,7 +31,7 @@ void incompleteFactor::overBlocks(const std::function<void(label, label)>& body)
                 1);
 }
 
-// Entries below and above the diagonal inside each block
+// Copies the entries below and above the diagonal inside each block
 void incompleteFactor::split(const csrMatrix& A)
 {
     for (triangle* t : {&lower_, &upper_})

@@ -31,7 +31,7 @@ struct luSolver::umfpack
 luSolver::luSolver() : umfpack_(std::make_unique<umfpack>()) {}
 luSolver::~luSolver() = default;
 
-// True if the pattern is a new one
+// True if the pattern has changed
 bool luSolver::umfpack::setMatrix(const csrMatrix& A)
 {
     List<SuiteSparse_long> newStart(1, 0), newColumn;
@@ -89,7 +89,7 @@ void luSolver::apply(const List<scalar>& r, List<scalar>& z) const
         throw fatalError("luSolver: a right-hand side of " + std::to_string(r.size()) +
                          " for a factor of " + std::to_string(u.size()) + " rows");
     const oneBlasThread guard;
-    // Rows of A are columns of its transpose: U^T solves with A itself
+    // The columns of UMFPACK are the rows of A, so its transposed system is that of A
     u.checkStatus(umfpack_dl_solve(UMFPACK_Aat, u.start.data(), u.column.data(), u.value.data(),
                                    z.data(), r.data(), u.numeric, nullptr, nullptr),
                   "the solution");

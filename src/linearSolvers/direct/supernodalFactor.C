@@ -12,9 +12,10 @@ namespace ispf
 namespace
 {
 
-constexpr label nParts = 16;                       // of the tree below `top_`; a fixed number
-constexpr label blockWidth = 64;                   // columns of a supernode at a time
-constexpr label rowGrain = 128, columnGrain = 16;  // of a block, for one thread
+constexpr label nParts = 16;      // of the tree below `top_`; a fixed number
+constexpr label blockWidth = 64;  // columns of a supernode in one pass
+// least rows and columns of a block for one thread
+constexpr label rowGrain = 128, columnGrain = 16;
 
 // y -= A x for rows [begin, end) of A, n columns that are `stride` apart
 ISPF_HOT void subtractProduct(const float* A, label stride, label begin, label end, label n,
@@ -102,7 +103,7 @@ void supernodalFactor::copy(const cholmod_factor_struct& L)
     chooseParts();
 }
 
-// Takes the heaviest subtrees apart until none holds more than a part's share, and deals them out
+// Divides the heaviest subtrees until none has more work than a part's share, then distributes them to the parts
 void supernodalFactor::chooseParts()
 {
     const label nNodes = label(nodes_.size()), n = size();
@@ -138,7 +139,7 @@ void supernodalFactor::chooseParts()
     std::sort(top_.begin(), top_.end());
     parts_.assign(nParts, {});
     List<scalar> load(nParts, 0);
-    for (; !queue.empty(); queue.pop())  // the heaviest first, each to the part that has least
+    for (; !queue.empty(); queue.pop())  // the heaviest first, each to the part with the least work
     {
         const auto [own, k] = queue.top();
         const label p = label(std::min_element(load.begin(), load.end()) - load.begin());
@@ -154,8 +155,8 @@ void supernodalFactor::chooseParts()
         }
 }
 
-// y: on entry the right side of the own rows, then zeros; on return the solution, then what the rows
-// below receive
+// y: right side of the node's own rows, then zeros, on entry; on return the solution, then the contributions
+// to the rows below
 void supernodalFactor::forward(const supernode& s, float* y) const
 {
     for (label j = 0; j < s.nColumns; j += blockWidth)
@@ -172,7 +173,7 @@ void supernodalFactor::forward(const supernode& s, float* y) const
     }
 }
 
-// y: on entry the right side of the own rows, then the solution below; on return the own solution
+// y: right side of the node's own rows, then the solution below, on entry; on return the own solution
 void supernodalFactor::backward(const supernode& s, float* y) const
 {
     for (label next = s.nColumns; next > 0;)
@@ -190,7 +191,7 @@ void supernodalFactor::backward(const supernode& s, float* y) const
     }
 }
 
-// add(row, value) for the rows below
+// Forward solution of node s; calls add(row, value) for the rows below
 template <class Add>
 void supernodalFactor::forward(const supernode& s, List<float>& y, Add&& add) const
 {

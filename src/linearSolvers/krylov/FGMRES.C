@@ -9,11 +9,11 @@ namespace ispf
 namespace
 {
 
-// A restart that gains less than this has stagnated
+// A restart has stagnated if it reduces the residual by a factor above this
 constexpr scalar leastGain = 0.99;
-// Remaining overlap with the basis beyond which w is made orthogonal a second time
+// If the remaining overlap with the basis exceeds this, w is made orthogonal a second time
 constexpr scalar overlapAllowed = 1e-10;
-// What is left of w by which the space is exhausted
+// The space is exhausted if less than this share of w remains
 constexpr scalar exhausted = 1e-14;
 
 ISPF_HOT void subtractRange(label n, scalar h, const scalar* v, scalar* w)
@@ -60,7 +60,7 @@ scalar FGMRES::scaledResidual(const linearOperator& A, const List<scalar>& b, co
     return norm(w_);
 }
 
-// v_[k] = w_ / length, memory being taken as the basis grows
+// v_[k] = w_ / length; allocates memory as the basis grows
 static void append(List<List<scalar>>& v, label k, const List<scalar>& w, scalar length)
 {
     if (label(v.size()) <= k) v.emplace_back();
@@ -78,11 +78,11 @@ void FGMRES::startBasis(scalar rNorm)
     trouble_ = solverStatus::converged;
 }
 
-// Removes from w its part in the span of v_[0..k], which goes to h; returns what is left of |w|
+// Subtracts from w its part in the span of v_[0..k], whose coefficients go to h; returns the new |w|
 scalar FGMRES::orthogonalise(label k, List<scalar>& h)
 {
     const label n = label(w_.size()), m = k + 1;
-    // Takes `known` from w, then the dots of the result with the basis and with itself
+    // Subtracts `known` from w; returns the dot products of the result with the basis and with itself
     const auto sweep = [&](const List<scalar>& known) {
         return blockSums(n, m + 1, [&](label i, label e, scalar* sums) {
             for (size_t j = 0; j < known.size(); ++j)
@@ -124,7 +124,7 @@ scalar FGMRES::rotate(label k, scalar next)
     return std::abs(g_[k + 1]);
 }
 
-// One more column; false if it is of no use (trouble_ says why) and must not enter the solution
+// Adds one column to the basis.  False if the column must not enter the solution; trouble_ then has the reason
 bool FGMRES::extend(const linearOperator& A, const preconditioner& M, label k)
 {
     const label n = A.size();
@@ -145,7 +145,7 @@ bool FGMRES::extend(const linearOperator& A, const preconditioner& M, label k)
     if (!std::isfinite(next)) return trouble_ = solverStatus::notFinite, false;
     const scalar largest = Eigen::Map<const Eigen::VectorXd>(h_[k].data(), k + 1).norm();
     rotate(k, next);
-    // Nothing new and nothing left on the diagonal: A M^-1 is singular on this space
+    // no new direction and a zero on the diagonal: A M^-1 is singular on this space
     if (next == 0 && h_[k][k] <= exhausted * largest)
         return trouble_ = solverStatus::breakdown, false;
     if (next > 0) append(v_, k + 1, w_, next);

@@ -77,7 +77,7 @@ solverPerformance PBiCGStab::solve(const linearOperator& A, const preconditioner
             sum[0] = dotRange(&t_[i], &s_[i], e - i);
             sum[1] = dotRange(&t_[i], &t_[i], e - i);
         });
-        // s = 0: the half step already ended on the solution
+        // s = 0: the half step has already reached the solution
         const scalar omega = sNorm > 0 && sums[1] > 0 ? sums[0] / sums[1] : 0;
         rNorm = advance(alpha, omega, x);
         report(k + 1, rNorm / state.result().normFactor);

@@ -49,7 +49,7 @@ solverPerformance PCG::solve(const linearOperator& A, const preconditioner& M,
             sum[0] = dotRange(&z_[i], &r_[i], e - i);
             sum[1] = dotRange(&z_[i], &q_[i], e - i);
         });
-        // Polak-Ribiere: z.(r - rOld) = -alpha z.q, so that rOld need not be kept
+        // Polak-Ribiere: z.(r - rOld) = -alpha z.q, so rOld is not needed
         if (k == 0) p_ = z_;
         else scaleAndAdd(z_, -alpha * sums[1] / zr, p_);
         zr = sums[0];

@@ -22,7 +22,7 @@ namespace
 const List<word> solverWords = {"PCG", "PBiCGStab", "FGMRES", "direct"};
 const List<word> preconditionerWords = {"multigrid", "DIC", "DILU", "diagonal", "none"};
 
-// Keys that another choice of words would use
+// Refuses keys that only another choice of words uses
 void refuse(const dictionary& dict, const List<word>& keys, const word& choice)
 {
     for (const word& key : keys)
@@ -31,7 +31,7 @@ void refuse(const dictionary& dict, const List<word>& keys, const word& choice)
                       "It has no effect with " + choice + ", which does not use it. Leave it away");
 }
 
-// CPU time of all threads between calls; looks at no clock unless asked to
+// CPU time of all threads between calls; reads the clock only if it is on
 class cpuLaps
 {
 public:
@@ -114,7 +114,7 @@ private:
         return done;
     }
 
-    // Builds the preconditioner, and finds the floating parts of a symmetric system
+    // Builds the preconditioner and finds the floating parts of a symmetric system
     const preconditioner& prepare(const linearSystem& system)
     {
         const csrMatrix& A = system.A;
@@ -149,7 +149,7 @@ private:
 
     word method_;
     dictionary dict_;  // for messages
-    word name_;        // of the preconditioner
+    word name_;        // name of the preconditioner
     solverControls controls_;
     bool profiling_;
     multigridOptions options_;
@@ -198,7 +198,7 @@ public:
     }
 
 private:
-    // The factor of A as preconditioner of what is no matrix
+    // Solves with the factor of A as preconditioner, for an operator without a matrix
     solverPerformance refined(const linearSystem& system, const constantNullSpace& floating,
                               const List<scalar>& right, List<scalar>& x)
     {

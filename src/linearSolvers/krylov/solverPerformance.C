@@ -51,7 +51,7 @@ convergence::convergence(const solverControls& controls, const word& solver, con
 {
     result_.solverName = solver;
     result_.fieldName = field;
-    // b = 0: the first residual is the only scale there is
+    // b = 0: the first residual is the only scale
     result_.normFactor = normB > 0 ? normB : initialNorm > 0 ? initialNorm : 1;
     result_.initialResidual = initialNorm / result_.normFactor;
     target_ = std::max(

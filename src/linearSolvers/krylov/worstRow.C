@@ -15,7 +15,7 @@ label worstRow(const linearOperator& A, const List<scalar>& b, const List<scalar
     for (label i = 0; i < label(b.size()); ++i)
     {
         const scalar r = std::abs(b[i] - Ax[i]);
-        // one row that is not finite spoils those of its neighbours: the right-hand side is first
+        // a row that is not finite spoils the rows of its neighbours, so the right-hand side is tested first
         if (!std::isfinite(b[i])) return i;
         if (most < HUGE_VAL && !(r <= most)) worst = i, most = std::isfinite(r) ? r : HUGE_VAL;
     }

@@ -9,7 +9,7 @@ namespace ispf
 namespace
 {
 
-// Columns of a block times the components of one vector
+// B x: the columns of the block times the components of x
 ISPF_INLINE simd4 product(const tensor& B, const vec4& x)
 {
     const double* b = B.data();
@@ -28,7 +28,7 @@ ISPF_HOT void productRange(const blockMatrix3& A, label begin, label end, const 
     }
 }
 
-// With what a row has of its own unknown among the others
+// Diagonal block of row i, plus the off-diagonal blocks of the row in its own column
 tensor wholeDiagonal(const blockMatrix3& A, label i)
 {
     tensor D = A.diagonal[i];

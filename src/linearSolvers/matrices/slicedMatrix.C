@@ -28,7 +28,7 @@ ISPF_INLINE void sliceProduct(const slices& A, label s, const V* x, V* sum)
     {
         const float* value = A.value + size_t(k) * width;
         const std::int32_t* column = A.column + size_t(k) * width;
-        // Without this the compiler makes vectors along k, of permuted entries
+        // Without this pragma the compiler makes vectors along k, with permuted entries
 #pragma omp simd
         for (label q = 0; q < width; ++q) sum[q] += value[q] * x[column[q]];
     }
@@ -69,7 +69,7 @@ ISPF_INLINE void smoothSlices(const slices& A, label s, label end, const float* 
     }
 }
 
-// Clones must be plain functions, so both instances are spelt out
+// ISPF_HOT needs plain functions, so both instances are written out
 ISPF_HOT void hotMultiply(const slices& A, label s, label e, const float* x, float* y)
 {
     multiplySlices(A, s, e, x, y);

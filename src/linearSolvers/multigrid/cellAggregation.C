@@ -11,8 +11,8 @@ namespace ispf
 namespace
 {
 
-// Rows sorted by cell.  A very large box is folded: cells that fall on each other share a bucket,
-// and only connected rows become one aggregate, so far cells stay apart.
+// Rows sorted by cell.  A very large box is folded: several cells then share a bucket.  Only
+// connected rows become one aggregate, so far cells stay apart.
 struct buckets
 {
     List<label> start;  // [nBuckets + 1]

@@ -12,7 +12,7 @@ namespace ispf
 namespace
 {
 
-// A level is kept only if it has at most this share of the rows above it
+// A level is kept only if it has at most this share of the rows of the finer level
 constexpr scalar worthwhile = 0.7;
 
 ISPF_HOT scalar dotRange(const float* a, const float* b, label n)
@@ -84,7 +84,7 @@ struct cellMultigrid::workspace
     struct vectors
     {
         List<V> b, x, r;
-        List<V> c, v;  // K-cycle: first correction and its product
+        List<V> c, v;  // K-cycle: first correction and A times it
     };
     List<vectors> at;
 
@@ -140,8 +140,8 @@ List<label> cellMultigrid::levelSizes() const
     return sizes;
 }
 
-// Values become float, divided by the mean diagonal so that they stay far from the ends of its
-// range
+// Converts values to float, divided by the mean diagonal so that they stay far from the ends of the
+// range of float
 void cellMultigrid::buildFinest(const csrMatrix& A, const List<vector>& x,
                                 const List<std::uint8_t>& group)
 {
@@ -183,7 +183,7 @@ void cellMultigrid::buildLevels()
     float extent = 0;
     for (const float4& p : level_[0].point) extent = std::max({extent, p[0], p[1], p[2]});
     float cellSize = float(options_.cellSize);
-    size_t last = 0;  // levels beyond it are left from an earlier use
+    size_t last = 0;  // levels beyond it remain from an earlier use
     while (level_[last].size() > options_.coarsestSize)
     {
         cellAggregates aggregates = aggregateByCell(level_[last], cellSize);
@@ -197,14 +197,14 @@ void cellMultigrid::buildLevels()
             level_[last].aggregate = std::move(aggregates.of);
             ++last;
         }
-        else if (cellSize > 2 * extent) break;  // nothing left to join
+        else if (cellSize > 2 * extent) break;  // all rows that can be joined have been joined
         cellSize *= 2;
     }
     level_.resize(last + 1);
     transfer_.resize(last);
 }
 
-// Levels share sets of connected rows, so floating ones are found on the coarsest and handed up
+// All levels have the same sets of connected rows: finds the floating sets on the coarsest level
 void cellMultigrid::buildNullSpace()
 {
     const multigridLevel& last = level_.back();
@@ -231,7 +231,7 @@ void cellMultigrid::buildNullSpace()
     nullSpace_ = constantNullSpace(std::move(set), nSets);
 }
 
-// Jacobi factors over the diagonal; a row without neighbours is solved exactly, or left alone where
+// Jacobi factors over the diagonal.  A row without neighbours is solved exactly; its factor is 0 if
 // nothing determines it
 void cellMultigrid::setRelaxation()
 {
@@ -268,8 +268,8 @@ void cellMultigrid::cycle(workspace<V>& work, label l) const
     w.x.swap(w.r);
 }
 
-// One cycle, or in the K-cycle at most two steps of flexible conjugate gradients preconditioned by
-// it.  Y. Notay, P. S. Vassilevski, Numer. Linear Algebra Appl. 15 (2008) 473.
+// One cycle; with the K-cycle at most two steps of flexible conjugate gradients that it
+// preconditions.  Y. Notay, P. S. Vassilevski, Numer. Linear Algebra Appl. 15 (2008) 473.
 template <class V>
 void cellMultigrid::solveCoarse(workspace<V>& work, label l) const
 {

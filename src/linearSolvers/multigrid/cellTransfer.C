@@ -60,7 +60,7 @@ ISPF_HOT void hotProlong(label i, label e, const std::int32_t* c, const float* w
     prolongRows(i, e, c, w, coarse, x);
 }
 
-// The aggregates that the rows of one aggregate may interpolate from, itself first
+// The aggregates from which the rows of one aggregate may interpolate; the aggregate itself is first
 struct candidates
 {
     List<std::int32_t> aggregate;
@@ -84,7 +84,7 @@ ISPF_HOT void hatWeights(label n, const float* x, const float* y, const float* z
                     std::max(0.f, 1 - std::abs(at[2] - z[c]) * inverse);
 }
 
-// Keeps the 8 heaviest (only cells of several aggregates ever have more), summing to 1
+// Keeps the 8 largest weights and makes their sum 1 (only cells with several aggregates have more than 8)
 void select(const candidates& from, std::int32_t* column, float* weight)
 {
     column[0] = from.aggregate[0], weight[0] = from.weight[0];

@@ -10,14 +10,14 @@ namespace ispf
 namespace
 {
 
-constexpr label blockRows = 2048;  // aggregates per piece: that of blockSums
+constexpr label blockRows = 2048;  // aggregates per piece: as in blockSums
 
 float squaredLength(float4 d)
 {
     return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
 
-// A piece of the coarse matrix, unscaled
+// A piece of the coarse matrix, before scaling
 struct piece
 {
     List<label> length;  // entries of each row
@@ -37,7 +37,7 @@ public:
 
     void add(label aggregate, piece& to, scalar* moments)
     {
-        // Place of an aggregate in the row at work, -1 if it is not there
+        // Place of an aggregate in the current row, -1 if it is not in it
         static thread_local List<label> place;
         if (label(place.size()) < agg_.n) place.resize(agg_.n, -1);
         row_.assign(1, {aggregate, 0});
@@ -70,13 +70,13 @@ private:
         });
     }
 
-    // Second moments of the couplings on both levels, for the factor s
+    // Adds the second moments of the couplings of row i on both levels, for the factor s
     void addMoments(label i, label own, scalar* moments)
     {
         fine_.A.forRow(i, [&](label j, float value) {
             const label J = agg_.of[j];
             const float r2 = squaredLength(fine_.point[i] - fine_.point[j]);
-            // far: a coupling around a periodic box
+            // r2 > far_: a coupling around a periodic box
             if (J < 0 || r2 > far_) return;
             moments[0] += value * r2;
             moments[1] += value * squaredLength(coarse_.point[own] - coarse_.point[J]);
@@ -87,7 +87,7 @@ private:
     const cellAggregates& agg_;
     const multigridLevel& coarse_;
     const float far_;
-    List<entry> row_;  // sums of the row at work, first those inside the aggregate
+    List<entry> row_;  // sums of the current row; the first is for entries inside the aggregate
 };
 
 void placeAggregates(const multigridLevel& fine, const cellAggregates& aggregates, float cellSize,
@@ -100,7 +100,7 @@ void placeAggregates(const multigridLevel& fine, const cellAggregates& aggregate
     {
         const label first = aggregates.member[aggregates.start[a]];
         coarse.group[a] = fine.group[first];
-        // by the product that aggregateByCell uses: a lattice has rows on the very edge of a cell
+        // the same product as in aggregateByCell: a lattice has rows exactly on the edge of a cell
         for (int d = 0; d < 3; ++d)
             coarse.point[a][d] =
                 (std::floor(fine.point[first][d] * (1 / cellSize)) + 0.5f) * cellSize;
@@ -113,7 +113,7 @@ void placeAggregates(const multigridLevel& fine, const cellAggregates& aggregate
     }
 }
 
-// Puts the pieces together and scales
+// Joins the pieces and scales the off-diagonals by s
 void assemble(const List<piece>& pieces, float s, multigridLevel& coarse)
 {
     List<label> rowStart(1, 0);

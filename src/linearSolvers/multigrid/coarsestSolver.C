@@ -17,7 +17,7 @@ coarsestSolver::coarsestSolver(const slicedMatrix& A, const List<label>& pinned)
             if (number[j] >= 0) dense(k, number[j]) += value;
         });
     }
-    // With a compatible right-hand side the row that is held gets zero, and nothing else changes
+    // With a compatible right-hand side a doubled diagonal gives zero in the pinned row and changes nothing else
     for (const label i : pinned)
         if (number[i] >= 0) dense(number[i], number[i]) *= 2;
     if (!row_.empty()) factors_.compute(dense);

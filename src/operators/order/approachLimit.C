@@ -11,7 +11,7 @@ namespace ispf
 namespace
 {
 
-// Exchanges among three particles that meet settle in a few sweeps; what is left is met in the next step
+// Exchanges among three particles settle in a few sweeps; the rest is left to the next step
 constexpr int mostSweeps = 5;
 
 vector velocityOf(const particleCloud& cloud, label j)
@@ -22,7 +22,8 @@ vector velocityOf(const particleCloud& cloud, label j)
            cloud.ghostOffset(j).xyz();
 }
 
-// n points from j to i.  The velocity of i against j along n lacks this much for (8.35): positive if the pair comes too near
+// n points from j to i.  lacks: what (8.35) demands of the relative velocity along n less its value; > 0: the pair comes too
+// near
 struct approach
 {
     scalar lacks;
@@ -33,7 +34,7 @@ approach approachOf(const particleCloud& cloud, label i, label j, scalar closest
 {
     const vector d = cloud.x[i].xyz() - cloud.x[j].xyz();
     const scalar r = d.norm(), room = std::max(r - closest, scalar(0));
-    if (r == 0) return {0, vector::Zero()};  // no line between them
+    if (r == 0) return {0, vector::Zero()};  // the direction is not defined
     const vector n = d / r;
     return {-room / dt - n.dot(cloud.Up[i].xyz() - velocityOf(cloud, j)), n};
 }
@@ -74,7 +75,7 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
                 if (!(lacks > 0) || free == 0) return;
                 const vector change = lacks / free * n;
                 if (!cloud.uFixed[i]) cloud.Up[i].s += vec4::from(change).s;
-                // an image of i itself goes with it
+                // if j is an image of i, i itself has got the change already
                 if (owner != i && !cloud.uFixed[owner])
                     (isSolid ? toSolid[owner] : cloud.Up[owner]).s -=
                         vec4::from(j < cloud.n() ? change

@@ -10,11 +10,11 @@ namespace ispf
 namespace
 {
 
-constexpr scalar unknown = 2;    // of e_start
-constexpr scalar unsure = 0.03;  // place of the faces of the cut [dx], doc/constants.md
+constexpr scalar unknown = 2;    // value of e_start that is not known
+constexpr scalar unsure = 0.03;  // uncertainty of the faces' places [dx], doc/constants.md
 constexpr scalar parts = 4;      // of the extent: L/4 in (3.15), doc/constants.md
 
-// Largest side of the box around those particles of which isOf(i) is true
+// Largest side of the box around the fluid particles with isOf(i)
 template <class IsOf>
 scalar extent(const particleCloud& cloud, IsOf&& isOf)
 {

@@ -10,10 +10,10 @@ namespace ispf
 namespace
 {
 
-// Way of the fastest particle in a step [dx] from which on the closing shift is taken in full (doc/constants.md)
+// Way of the fastest particle in a step [dx] from which on the second term of (8.30) is taken in full (doc/constants.md)
 constexpr scalar inFull = 0.1;
 
-// sum_j (r_mean/r_ij)^2 n_ij = r_mean^2 sum_j x_ij / r_ij^3, all neighbours of i
+// sum_j (r_mean/r_ij)^2 n_ij = r_mean^2 sum_j x_ij / r_ij^3, over all neighbours of i
 ISPF_INLINE vector crowding(const particleCloud& cloud, const neighbourList& list, label i)
 {
     simd4 sum = {};
@@ -28,7 +28,7 @@ ISPF_INLINE vector crowding(const particleCloud& cloud, const neighbourList& lis
     return rSum * rSum / (n * n) * vector(sum[0], sum[1], sum[2]);
 }
 
-// V sum_j grad W_ij, all neighbours of i
+// V sum_j grad W_ij, over all neighbours of i
 ISPF_INLINE vector slopeOfSum(const particleCloud& cloud, const neighbourList& list, label i)
 {
     const simd4 sum = sumNeighbours<among::all>(list, i, simd4{}, [&](pairIndex k, label j) {
@@ -83,7 +83,7 @@ word particleShifting::describe() const
 namespace
 {
 
-// dr.grad u, in its own direction within the range of the neighbours'
+// dr.grad u, shortened so that u_i plus it stays within the range of the neighbours' velocities in its direction
 vector limitedChange(const particleCloud& cloud, const neighbourList& list, const tensor& B,
                      label i, const vector& dr)
 {
@@ -103,15 +103,15 @@ vector limitedChange(const particleCloud& cloud, const neighbourList& list, cons
     const auto differs = [&](label j) { return along.dot(cloud.Up[j].xyz() - cloud.Up[i].xyz()); };
     forNeighbours<among::same>(list, i,
                                [&](pairIndex, label j) { high = std::max(high, differs(j)); });
-    // a mirror image is as far beyond the wall as its source before it
+    // a mirror image is as far beyond the wall as its source is before the wall
     forNeighbours<among::walls>(list, i, [&](pairIndex, label j) {
         high = std::max(high, (cloud.phase[j] == phaseType::mirror ? 0.5 : 1) * differs(j));
     });
     return std::min(size, high) * along;
 }
 
-// Shortens v so that their sum is zero along directions that symmetry planes do not turn: by (1 - m.v/|v|) where that is
-// below one, with the m for which the sum is zero (Newton; the equation is linear between the signs of m.v)
+// Shortens the vectors v so that their sum is zero along directions that symmetry planes do not turn.  Each v is multiplied
+// by 1 - p, p = m.v/|v| within [0, 1]; Newton finds m (the equation is linear between changes of sign of m.v)
 void balance(const particleCloud& cloud, List<vector>& v)
 {
     const tensor free = cloud.freeDirections();
@@ -170,7 +170,7 @@ scalar particleShifting::shift(particleCloud& cloud, const neighbourList& list,
         }
     });
     if (cloud.surface.empty()) balance(cloud, v);
-    // b t^2 + a t <= allowance
+    // t is the largest number, at most 1, with b t^2 + a t <= allowance
     scalar a = 0, b = 0;
     for (label k = 0; k < nFluid; ++k)
         a += cloud.Up[first + k].xyz().dot(v[k]), b += 0.5 * v[k].squaredNorm();

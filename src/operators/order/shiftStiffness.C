@@ -12,8 +12,8 @@ namespace ispf
 namespace
 {
 
-// A neighbour at x [dx], and the factors by which its displacement changes both sums.  A displacement of the particle itself
-// changes them by the opposite
+// A neighbour at x [dx], and the matrices by which its displacement changes the two sums of (8.30).  A displacement of the
+// particle itself changes the sums by the opposite
 struct answer
 {
     vector x;
@@ -33,7 +33,7 @@ List<answer> answersOf(const smoothingKernel& kernel, int nDims, scalar dx)
     const scalar mean = sum / scalar(found.size());
     for (answer& a : found)
     {
-        constexpr scalar step = 1e-4;  // [dx], of the difference that gives F' (doc/constants.md)
+        constexpr scalar step = 1e-4;  // [dx], of the difference quotient for F' (doc/constants.md)
         const scalar r = a.x.norm();
         const tensor nn = a.x * a.x.transpose() / (r * r);
         scalar rSqr[3], F[3];

@@ -21,7 +21,7 @@ struct view
 
     // Neighbours of i in the medium, but for those across an open face that gives the velocity
     ISPF_INLINE pairRange row(label i) const { return {list.own[i], end[i]}; }
-    // Components of the first nDims, and what lies behind them
+    // a_ij of entry k.  Components from nDims on are those of the next entry
     ISPF_INLINE simd4 face(std::int64_t k) const
     {
         simd4 a;
@@ -145,7 +145,7 @@ void adjointPair::setup(particleCloud& cloud, const neighbourList& list,
     for (label i = 0; i < label(faceFlux_.size()); ++i) wallFlux_[i] += faceFlux_[i];
 }
 
-// sum_j a_ij (x) (x_j - x_i) + M_i
+// sum_j a_ij (x) (x_j - x_i) + M_i, see (2.5)
 tensor adjointPair::momentOf(label i) const
 {
     tensor sum = moment_[i];
@@ -163,10 +163,10 @@ scalar adjointPair::cell(label i) const
     return sumNeighbours(*list_, within_.row(*list_, i), moment_[i].trace(), term) / cloud_->nDims;
 }
 
-// The arms to elements that p goes on linearly to make good what the fit leaves of (2.5): (3.13)
+// Fits the arms to elements to which p goes on linearly: they make good what (2.5) lacks, see (3.13)
 void adjointPair::fitArms(List<tensor>& linear, List<vec4>& drag)
 {
-    // eigenvalue of T T^T from which on an arm is fitted, and its largest change (doc/constants.md)
+    // eps^2 of (3.13) [1], and the largest norm of C_i - 1 (doc/constants.md)
     constexpr scalar least = 0.01, most = 0.5;
     arm_.assign(cloud_->n(), tensor::Identity());
     const label first = within_.first;
@@ -188,7 +188,7 @@ void adjointPair::fitArms(List<tensor>& linear, List<vec4>& drag)
     });
 }
 
-// (3.5) of u = 0
+// Adds to flux the terms of drag in (3.5), that is (3.5) with u = 0 less flux_i
 void adjointPair::addDrag(const List<tensor>& one, const List<vec4>& drag, List<scalar>& flux) const
 {
     if (linearB_.empty() || drag.empty()) return;
@@ -202,7 +202,7 @@ void adjointPair::addDrag(const List<tensor>& one, const List<vec4>& drag, List<
         if (besideWall_[i]) flux[i] += wallPart(v, h_.data(), i);
 }
 
-// Twice the mean over each body of term(i, d), along free directions
+// Twice the mean of term(i, d) over each body, projected to directions that symmetry planes do not turn
 template <class Term>
 List<vec4> adjointPair::twiceMean(const Term& term) const
 {
@@ -230,9 +230,9 @@ List<vec4> adjointPair::twiceMean(const Term& term) const
     return mean;
 }
 
-// Faces to fluid beyond an open face whose velocity is given: elements of a wall that moves so, with p linear to it.
-// Their flux misses some of the volume that is to enter, and the rest is spread over their area.  Faces that meet share one
-// rest: a cell at their rim belongs to one or the other by chance
+// Adds the faces a_ij across open faces whose velocity is given, as elements of a moving wall with p linear to it, (4.9).
+// The flux through these elements lacks a part of the volume that should enter; it is spread over their area.  Open faces
+// that meet share this part: a cell at their rim belongs to one or the other by chance
 void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& drag)
 {
     const particleCloud& cloud = *cloud_;
@@ -244,7 +244,7 @@ void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& dr
     List<label> cut;
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
         if (list_->start[i] < list_->own[i] && !cloud.beyondOpen(i)) cut.push_back(i);
-    const auto velocity = [&](label i, label j) -> vector {  // in the middle
+    const auto velocity = [&](label i, label j) -> vector {  // in the middle of the face
         if (given[i][3] != given[j][3]) return given[j].xyz();
         return 0.5 * (given[i].xyz() + given[j].xyz());
     };
@@ -264,7 +264,7 @@ void adjointPair::addCut(List<tensor>& linear, List<tensor>& one, List<vec4>& dr
             const vector a = 2 * cloud.volume() * faces_.of(k);
             lacks[group[faceOf(j)]] -= a.dot(velocity(i, j)), area[group[faceOf(j)]] += a.norm();
         });
-    const auto added = [&](size_t f) {  // [m/s]
+    const auto added = [&](size_t f) {  // added normal velocity [m/s]
         const bool known = std::isfinite(lacks[group[f]]) && area[group[f]] > 0;
         return known ? lacks[group[f]] / area[group[f]] : 0;
     };

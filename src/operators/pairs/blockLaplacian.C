@@ -28,7 +28,7 @@ blockLaplacian::blockLaplacian(const graph& g, const List<scalar>& holds) : g_(g
     }
 }
 
-// Cubes of the particles of one body
+// Blocks are cubes with the particles of one body
 void blockLaplacian::findBlocks()
 {
     constexpr scalar mostBlocks = 300, leastInBlock = 30;  // doc/constants.md
@@ -52,8 +52,8 @@ void blockLaplacian::findBlocks()
     n_ = label(known.size());
 }
 
-// w_ij |psi_i - R psi_j|^2 of each pair, for the image j of a particle R its turn.  A strip has no psi in directions that
-// symmetry planes turn
+// The matrix entries of w_ij |psi_i - R psi_j|^2 for each pair.  R is the turn of the image j, 1 for a particle.  A strip
+// has no psi in directions that symmetry planes turn
 List<blockLaplacian::entry> blockLaplacian::pairs(label from, label to, label nMatrices) const
 {
     const particleCloud& cloud = g_.cloud;
@@ -65,7 +65,7 @@ List<blockLaplacian::entry> blockLaplacian::pairs(label from, label to, label nM
         if (own < 0) continue;
         forNeighbours(g_.list, g_.within.row(g_.list, i), [&](pairIndex k, label j) {
             const label owner = cloud.ownerOf(j), other = block_[owner];
-            // within a block psi is the same
+            // within a block psi is the same: no term
             if ((other == own && j < cloud.n()) || (g_.inStrip[i] && g_.inStrip[owner])) return;
             const scalar w = -g_.list.F[k];
             for (label d = 0; d < nMatrices; ++d)

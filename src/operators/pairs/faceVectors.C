@@ -16,10 +16,10 @@ namespace
 
 constexpr simd4 inSpace = {1, 1, 1, 0};
 
-// Bound of a correction's eigenvalues: 4 times what a full support needs (doc/constants.md)
+// Bound of the eigenvalues of a correction: 4 times that of a full support (doc/constants.md)
 constexpr scalar mostCorrected = 4;
 
-// Bound of lambda_max(sum_j a_ij a_ij^T / w_ij), which is 1 in full order and 2 beside a wall: beyond it faces are shortened
+// Bound of lambda_max(sum_j a_ij a_ij^T / w_ij): 1 in full order, 2 beside a wall.  Beyond the bound faces are shortened
 constexpr scalar mostFace = 6;
 
 struct alignas(32) columns  // of a matrix
@@ -55,10 +55,10 @@ struct view
     const vec4* x;
     const columns* B;
     const vec4* psi;
-    const scalar* share;  // by which faces are shortened
+    const scalar* share;  // s_i of (2.7)
 
     ISPF_INLINE pairRange row(label i) const { return {start[i], end[i]}; }
-    // (2.3) over w_ij, its two parts
+    // way: r_ij.  corrected, closing: the two terms of (2.3) over w_ij
     ISPF_INLINE simd4 way(label i, label j) const { return (x[j].s - x[i].s) * inSpace; }
     ISPF_INLINE simd4 corrected(label i, label j, const simd4& d) const
     {
@@ -103,7 +103,7 @@ ISPF_HOT void graphRange(const view& v, const vec4* f, label begin, label end, v
     }
 }
 
-// sum_j |a_ij|^2 / w_ij of faces without psi
+// sum_j of the squared components of a_ij / w_ij, added up over components: sum_j |a_ij|^2 / w_ij, without psi
 ISPF_HOT void sizeRange(const view& v, label begin, label end, scalar* size)
 {
     for (label i = begin; i < end; ++i)
@@ -116,7 +116,7 @@ ISPF_HOT void sizeRange(const view& v, label begin, label end, scalar* size)
     }
 }
 
-// a_ij, and sum_j a_ij + b_i
+// Writes a_ij to `a` and sum_j a_ij + b_i to `left`
 ISPF_HOT void writeRange(const view& v, const vec4* b, int nDims, label begin, label end, scalar* a,
                          vec4* left)
 {
@@ -140,7 +140,7 @@ scalar squareOf(const vec4& a)
     return p[0] + p[1] + p[2];
 }
 
-// The parts of a build
+// The steps of faceVectors::build
 class builder
 {
 public:
@@ -155,7 +155,7 @@ public:
         gatherStrips();
     }
 
-    // A particle with few neighbours keeps a bounded correction; with next to none it is not closed
+    // A particle with few neighbours gets a bounded correction.  One with next to none is not closed
     void start(const List<tensor>& M)
     {
         forMedium([&](label i) {
@@ -175,7 +175,7 @@ public:
         takeInside(), fillB();
     }
 
-    // The support of a strip ends: it has the correction of the fluid before the face
+    // The support of a strip's particles is truncated: they get the mean correction of the fluid before the face
     void takeInside()
     {
         for (const strip& s : strips_)
@@ -192,7 +192,7 @@ public:
             }
     }
 
-    // sum_j w_ij |x_ij|^2 is the number of dimensions in the midst of fluid, a quarter of it in a corner
+    // sum_j w_ij |x_ij|^2 is nDims in the midst of fluid and a quarter of that in a corner
     bool alone(label i) const
     {
         constexpr scalar least = 0.1;  // doc/constants.md
@@ -216,7 +216,8 @@ public:
         takeInside(), fillB();
     }
 
-    // Starts from the psi that the same fit found in the step before, if there is one
+    // Starts from psi of the same fit in the step before, if it is known.  The first sweep comes before: it has psi = 0, so
+    // that its B depends on positions alone
     void takePsi(const List<vec4>& psi)
     {
         if (psi.empty()) return;
@@ -231,7 +232,7 @@ public:
         fill(psi_);
     }
 
-    // psi of (2.4) and (4.10), by conjugate gradients from the one that is there; the diagonal and the Laplacian over
+    // Solves (2.4) and (4.10) for psi by conjugate gradients, from the present psi on.  The diagonal and the Laplacian over
     // blocks precondition them
     void close(const List<vec4>& b, scalar tolerance, faceVectors::closure& result)
     {
@@ -253,7 +254,8 @@ public:
             for (const label i : s.members) r[i].s -= s.half.s;
         const auto holds = [&](label i) { return (closed_[i] ? level : stripLevel) * diagonal[i]; };
         forMedium([&](label i) { r[i].s -= holds(i) * psi_[i].s; });
-        // areas of a boundary that do not add up have no cell to go to; in a body with an open face they go beyond it
+        // Areas of a boundary whose sum is not zero have no cell to go to.  In a body with an open face they go beyond the
+        // face
         keepFree(r), removeMeans(r, [&](label body) { return !drains_[body]; });
         const auto precondition = [&] {
             blocks_->solve(r, weight_, z);
@@ -268,7 +270,7 @@ public:
         };
         precondition();
         p = z;
-        // the step over blocks at the end may enlarge what is left
+        // the last step over the blocks may enlarge the residual
         constexpr scalar safe = 0.9;
         const scalar scale = cloud_.dx * cloud_.dx / (safe * safe * nClosed);
         scalar rr = dot(r, r), rz = dot(r, z);
@@ -290,14 +292,14 @@ public:
             forMedium([&](label i) { p[i].s = z[i].s + next / rz * p[i].s; });
             rz = next;
         }
-        // what is left shall have no sum over any block.  Planes askew to the axes are not exact in blockLaplacian
+        // The last step leaves no residual sum over any block.  blockLaplacian is not exact for planes askew to the axes
         const tensor free = cloud_.freeDirections();
         blocks_->solve(r, weight_, z);
         forMedium([&](label i) { psi_[i].s += vec4::from(free * z[i].xyz()).s; });
         fill(psi_);
     }
 
-    // Beyond mostFace the corrected part of faces is shortened; psi closes what is left
+    // Shortens the corrected part of the faces beyond mostFace; psi closes the cells again
     void shorten()
     {
         const label n = cloud_.n();
@@ -324,12 +326,13 @@ public:
 
     void keepPsi(List<vec4>& psi) const { psi.assign(psi_.begin(), psi_.begin() + cloud_.n()); }
 
-    // Once closed.  What is left is less its mean over each body, so that a level of p has no gradient
+    // Writes a_ij and the residuals, after closing.  The mean over each body is taken off the residuals: a uniform p then
+    // has no gradient
     void write(const List<vec4>& b, faceVectors& faces, faceVectors::closure& result) const
     {
         List<vec4>& c = faces.left;
         faces.nDims = cloud_.nDims;
-        // the last one is read as four numbers
+        // the last vector is read as four numbers
         faces.a.resize(faces.nDims * list_.index.size() + 4), c.assign(cloud_.n(), vec4{});
         forRanges([&](label i, label end) {
             writeRange(sight(), b.data(), faces.nDims, i, end, faces.a.data(), c.data());
@@ -347,11 +350,11 @@ public:
     }
 
 private:
-    // Shares of the diagonal that keep the level of psi, which has no effect: of particles, of blocks, and of strips, which
-    // take what areas do not add up to
+    // Small numbers on the diagonal that fix the level of psi, which has no effect: for particles, blocks and strips.  That
+    // of a strip takes the sum of areas that is not zero
     static constexpr scalar level = 1e-9, regular = 1e-8, stripLevel = 1e-5;
 
-    // Fluid beyond an open face is one cell
+    // The fluid beyond an open face is one cell
     struct strip
     {
         List<label> members;
@@ -374,11 +377,12 @@ private:
                 weight_[i] = 1 / scalar(strips_[k].members.size());
         }
     }
-    // From f of what is closed its mean over each body, along directions that symmetry planes do not turn
+    // Takes off f of closed particles its mean over each body with has(body), along directions that symmetry planes do not
+    // turn
     template <class Has>
     void removeMeans(List<vec4>& f, const Has& has) const
     {
-        List<vec4> mean(bodies_.n);  // and the number of particles
+        List<vec4> mean(bodies_.n);  // [3]: number of particles
         for (label i = within_.first; i < cloud_.n(); ++i)
             if (closed_[i]) mean[bodies_.of[i]].s += f[i].s * inSpace + simd4{0, 0, 0, 1};
         const tensor free = cloud_.freeDirections();
@@ -397,7 +401,7 @@ private:
         for (const label i : s.members) sum += f[i].s;
         return sum;
     }
-    // f of a strip's members: the sum of term(i, j, w_ij) over its pairs with particles that are in no strip
+    // Sets f of the members of each strip to the sum of term(i, j, w_ij) over the strip's pairs with particles in no strip
     template <class Term>
     void sumStrips(List<vec4>& f, Term&& term) const
     {
@@ -411,7 +415,8 @@ private:
             for (const label i : s.members) f[i].s = sum;
         }
     }
-    // Nothing of particles that are not closed; of strips nothing that symmetry planes turn
+    // Sets f to zero for particles that are neither closed nor in a strip, and for strips in directions that symmetry planes
+    // turn
     void keepFree(List<vec4>& f) const
     {
         const tensor free = cloud_.freeDirections();
@@ -420,7 +425,7 @@ private:
             f[i] = inStrip_[i] ? vec4::from(free * f[i].xyz()) : vec4{};
         });
     }
-    // sum_j w_ij, of a strip over those beyond it
+    // sum_j w_ij; for a strip's particle the sum runs over particles in no strip
     List<scalar> graphDiagonal() const
     {
         List<scalar> diagonal(cloud_.n(), 1);
@@ -504,12 +509,12 @@ private:
     List<vec4> psi_;
     List<char> poor_, closed_, inStrip_;
     List<scalar> share_,
-        weight_;  // weight_: of a particle in a sum, one for all members of a strip
+        weight_;  // weight_: weight of a particle in a sum; the members of a strip share the weight one
     List<strip> strips_;
     connectedBodies bodies_;
-    List<scalar> diagonal_;  // of the graph Laplacian
+    List<scalar> diagonal_;  // diagonal of the graph Laplacian
     std::unique_ptr<blockLaplacian> blocks_;
-    List<char> drains_;  // per body: an open face does
+    List<char> drains_;  // per body: 1 if an open face drains it
 };
 
 }  // namespace
@@ -518,8 +523,8 @@ faceVectors::closure faceVectors::build(const particleCloud& cloud, const neighb
                                         const medium& within, const List<vec4>& b,
                                         const List<tensor>& M, const fitted& psi, scalar tolerance)
 {
-    // The least eigenvalue that the sweeps' relaxation is made for; what may be left open until the last time, over the
-    // tolerance (doc/constants.md)
+    // The least eigenvalue that the relaxation of the sweeps is made for; tolerance of all fits but the last, over that of the
+    // last (doc/constants.md)
     constexpr scalar least = 0.4, loosely = 100;
     closure result;
     builder faces(cloud, list, within);
@@ -528,7 +533,7 @@ faceVectors::closure faceVectors::build(const particleCloud& cloud, const neighb
     {
         List<vec4>& ofFit = *psi[k - 1];
         faces.sweep(
-            M, 2 / (1 + least + (1 - least) * std::cos(M_PI * (k - 0.5) / fits)));  // Chebyshev's
+            M, 2 / (1 + least + (1 - least) * std::cos(M_PI * (k - 0.5) / fits)));  // Chebyshev
         faces.takePsi(ofFit);
         if (k == fits) faces.shorten();
         faces.close(b, k == fits ? tolerance : loosely * tolerance, result);

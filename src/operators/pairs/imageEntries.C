@@ -10,7 +10,7 @@ namespace ispf
 namespace
 {
 
-// w (p_i - m p_s) in row i
+// The term w (p_i - m p_s) of row i; s is `column`
 struct link
 {
     label row, column;
@@ -22,10 +22,10 @@ bool before(const link& a, const link& c)
     return a.column != c.column ? a.column < c.column : a.m < c.m;
 }
 
-// Links in order of rows, each row's sorted and equal ones summed
+// Links in the order of their rows.  Within a row they are sorted, and equal links are summed
 struct linkRows
 {
-    List<label> start, end;  // of row i: [start[i], end[i])
+    List<label> start, end;  // row i has links [start[i], end[i])
     List<link> links;
 
     linkRows(label n, const List<link>& unsorted) : start(n + 1, 0), end(n), links(unsorted.size())

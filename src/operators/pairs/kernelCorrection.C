@@ -7,7 +7,7 @@ namespace ispf
 namespace
 {
 
-// Adds sum g (x_j - x_i)^T = -sum F d d^T over these neighbours, d = x_i - x_j
+// Adds sum g (x_j - x_i)^T = -sum F d d^T over the neighbours in `row`, d = x_i - x_j
 ISPF_HOT void moment(const particleCloud& cloud, const neighbourList& list, label i, pairRange row,
                      tensor& m)
 {
@@ -19,11 +19,11 @@ ISPF_HOT void moment(const particleCloud& cloud, const neighbourList& list, labe
     for (int a = 0; a < 3; ++a) m(a, 0) += cx[a], m(a, 1) += cy[a], m(a, 2) += cz[a];
 }
 
-// M^-1 with the eigenvalues of M held above `least`: beside edges and thin plates few neighbours are
-// left, and the plain inverse would blow up what little they say
+// M^-1 with the eigenvalues of M raised to `least`.  Few neighbours are left beside edges and thin plates: there
+// the plain inverse would enlarge the errors of few differences
 tensor boundedInverse(const tensor& M, scalar least, char& bounded)
 {
-    if (M.determinant() > 0.25) return M.inverse();  // no eigenvalue near zero: they are about 1
+    if (M.determinant() > 0.25) return M.inverse();  // no eigenvalue near zero: all are about 1
     const Eigen::SelfAdjointEigenSolver<tensor> e(M);
     bounded = e.eigenvalues()[0] < least;
     return e.eigenvectors() * e.eigenvalues().cwiseMax(least).cwiseInverse().asDiagonal() *

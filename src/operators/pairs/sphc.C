@@ -11,9 +11,9 @@ namespace
 {
 
 constexpr simd4 withoutPressure = {1, 1, 1, 0};
-constexpr scalar singular = 0.02;  // determinant of a correction moment
+constexpr scalar singular = 0.02;  // least determinant of a correction's moment matrix
 
-// Neighbours of other phases
+// Adds the terms of neighbours of other phases.  A rigid neighbour has no pressure
 ISPF_INLINE void addOthers(pairSums& sums, const stencil& s, const vec4* phi, label i)
 {
     forNeighbours<among::others>(s.list, i, [&](pairIndex k, label j) {
@@ -33,7 +33,7 @@ ISPF_INLINE pairSums rowSums(const stencil& s, const vec4* phi, label i)
     return sums;
 }
 
-// The correction as it would be if images behind curved walls had the volume of what they are images of
+// The correction that i would have if images behind curved walls had the volume of their sources
 tensor viscousCorrection(const stencil& s, label i)
 {
     tensor m = vector(0, 0, s.cloud.nDims == 2 ? 1 : 0).asDiagonal();

@@ -10,7 +10,7 @@ namespace ispf
 namespace
 {
 
-// Rows of one block, put one after the other at the end
+// The rows of one block of particles; all blocks are joined at the end
 struct block
 {
     List<label> length;
@@ -61,7 +61,7 @@ private:
             addImage(out, {first, owned}, images_.entries[k]);
 
         if (s_.cloud.pHeld(i)) out.column.resize(first), out.value.resize(first);
-        // a particle without neighbours keeps a regular row
+        // a particle without neighbours gets a regular row
         A_.diagonal[i] = diagonal > 0 ? diagonal : 1 / (s_.cloud.dx * s_.cloud.dx);
         out.length.push_back(label(out.column.size() - first));
     }
@@ -71,7 +71,7 @@ private:
         if (!s_.cloud.pHeld(j)) out.column.push_back(j), out.value.push_back(value);
     }
 
-    // A source that is also an ordinary neighbour, among [first, owned), has one entry
+    // Adds the entry of an image.  If its source is also a neighbour, among [first, owned), both share one entry
     void addImage(block& out, std::pair<size_t, size_t> neighbours,
                   const imageEntries::entry& e) const
     {

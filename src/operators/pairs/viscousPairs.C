@@ -23,7 +23,7 @@ void viscousPairs::setup(const stencil& s)
 {
     cloud_ = &s.cloud, list_ = &s.list;
     List<scalar> c = sphc::laplacianScale(s);
-    // a strip ends: its support is truncated, and so is that of its images
+    // The support of a strip's particle is truncated, and so is that of its image: c_i = 1
     for (label j = 0; j < s.cloud.nAll(); ++j)
         if (const label i = s.cloud.ownerOf(j); i >= 0 && s.cloud.beyondOpen(i)) c[j] = 1;
     K_.resize(s.list.index.size()), sum_.assign(s.cloud.n(), 0);
@@ -42,9 +42,9 @@ void viscousPairs::apply(const List<vec4>& phi, List<vec4>& result) const
     });
 }
 
-// 2 K u_i.(u_i - u_j) is K |u_i - u_j|^2, the half of the pair, and K (u_i + u_j).(u_i - u_j), which the row of j or of its
-// image has with the other sign, but for the wall's own motion.  A wall has no row.  In walls of mirrors that are curved the
-// images' friction is not mutual: what it lacks is in `walls`
+// 2 K u_i.(u_i - u_j) is the sum of K |u_i - u_j|^2, the half of the pair, and of K (u_i + u_j).(u_i - u_j).  The second
+// term cancels with the row of j, or of its image, but for a wall's own motion.  A wall has no row: its part goes to
+// `walls`.  The friction of images in curved mirrors is not mutual: `walls` contains the difference
 viscousPairs::power viscousPairs::powerOf(const List<vec4>& u) const
 {
     const particleCloud& cloud = *cloud_;

@@ -10,14 +10,15 @@ namespace ispf
 namespace
 {
 
-constexpr scalar oneSided = 0.9;  // |sum F n| over sum |F| of what is one wall
+// least |sum F n| over sum |F| with which the rigid neighbours count as one wall
+constexpr scalar oneSided = 0.9;
 
 struct view
 {
     const particleCloud& cloud;
     const neighbourList& list;
 
-    // visit(j, F_ij) of the rigid neighbours
+    // Calls visit(j, F_ij) for the rigid neighbours
     template <class Visit>
     void forRigid(label i, const Visit& visit) const
     {
@@ -59,7 +60,7 @@ struct view
             list, i, [&](pairIndex, label j) { return cloud.phase[j] == phaseType::rigid; });
     }
 
-    // Place in the list of the particle's image in a wall, -1: none or several
+    // Entry of the list that is the particle's own image in a wall; -1: no such entry or several
     pairIndex ownImage(label i) const
     {
         pairIndex found = -1;

@@ -11,7 +11,7 @@ namespace ispf
 namespace
 {
 
-// Owned particles that see a wall, then their images in symmetry planes and cyclic patches
+// Owned particles beside a wall, then their images in symmetry planes and cyclic patches
 List<label> besideWalls(const particleCloud& cloud, const neighbourList& list)
 {
     List<char> sees(cloud.n(), 0);
@@ -28,8 +28,8 @@ List<label> besideWalls(const particleCloud& cloud, const neighbourList& list)
     return found;
 }
 
-// Share of an element that lies before fluid, where a solid ends at the wall: its surface is halfway between particles of both,
-// (3.16)
+// phi of (3.16): the part of an element before fluid, where a solid ends at the wall.  The solid's surface lies halfway
+// between solid and fluid particles.  toFluid, toSolid: distances to the nearest of both [m]
 scalar beforeFluid(const particleCloud& cloud, const surfaceElement& e, scalar toFluid,
                    scalar toSolid)
 {

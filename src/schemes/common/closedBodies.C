@@ -11,9 +11,9 @@ namespace ispf
 namespace
 {
 
-constexpr scalar borderShare = 0.2;  // of a particle's neighbours
+constexpr scalar borderShare = 0.2;  // share of a particle's neighbours
 
-// Does fluid particle i lie among its own zone?  A stray that has got through a wall does not
+// True if most neighbours of fluid particle i are in its own zone.  A stray that has passed a wall gives false
 bool amongItsOwn(const particleCloud& cloud, const neighbourList& list, label i)
 {
     label own = 0;
@@ -40,8 +40,8 @@ List<zoneCount> countZones(const particleCloud& cloud, const neighbourList& list
     return count;
 }
 
-// Of fluid particles [begin, end): [a * zones + b] where one of zone a lies at the border to zone b, with
-// neighbours of both; one that has strayed through a wall has few or none of its own
+// Over fluid particles [begin, end): [a * zones + b] is 1 if a particle of zone a at the border to zone b has neighbours in
+// both.  A particle that has strayed through a wall has few or no neighbours in its own zone
 List<char> bordersOf(const particleCloud& cloud, const neighbourList& list, label begin, label end)
 {
     const label nz = label(cloud.zones.size());
@@ -60,7 +60,7 @@ List<char> bordersOf(const particleCloud& cloud, const neighbourList& list, labe
     return borders;
 }
 
-// The lowest zone of the body that each zone belongs to
+// Per zone: the lowest zone of its body
 List<label> joinZones(const particleCloud& cloud, const neighbourList& list)
 {
     const label nz = label(cloud.zones.size());
@@ -129,7 +129,7 @@ List<char> drainedFluid(const particleCloud& cloud, const neighbourList& list,
 
 void refusePush(const fsiCase& c, const sweptRates& pushed, const List<label>& zones)
 {
-    // facets of surfaces that move along may differ; the flux through an open face is known
+    // shares: facets of moving surfaces may differ from step to step; the flux through an open face is known
     constexpr scalar ofWalls = 0.05, ofFaces = 1e-3;
     scalar net = 0, admissible = 0;
     for (const label z : zones)

@@ -13,23 +13,23 @@ namespace ispf
 namespace
 {
 
-// The scheme halves a step of the user's length, and one that is adjusted, at most this often
+// Greatest number of halvings of a step of the user's length, and of an adjusted step
 constexpr int mostHalvings = 4, mostShortenings = 12;
-// A step is solved again for its outlets at most this often
+// Greatest number of repeated solutions of a step for its outlets
 constexpr int mostAsked = 10;
-// An adjusted step over the one before it
+// Largest ratio of an adjusted step to the step before
 constexpr scalar fastestGrowth = 2;
-// Way of a particle in one step [dx]
+// Largest way of a particle in one step [dx]
 constexpr scalar farthest = 0.6;
-// Local error of a particle's way in one step [dx], and the share of it that the next step is to have
+// Largest local error of a particle's way in one step [dx]; the share of it at which the next step aims
 constexpr scalar roughest = 0.2, aimedAt = 0.8;
-// Share of the energies at hand that a step may gain from nothing
+// Largest share of the energies at hand that a step may gain from nothing
 constexpr scalar mostGained = 0.05;
-// Way of the fastest particle in one step [dx] below which what is gained is rounding
+// A gain of energy is rounding if the fastest particle moves less than this in one step [dx]
 constexpr scalar atRest = 1e-9;
-// Entry of cloud.history: largest local error of a way in the last step over dt^2 [m/s^2]
+// Entry of cloud.history: largest local error of a way in the last step, over dt^2 [m/s^2]
 const word roughOfStep = "wayError";
-// The same, with adjustTimeStep: length of the last step that was accepted [s]
+// Entry of cloud.history, with adjustTimeStep: length of the last accepted step [s]
 const word lastAccepted = "acceptedStep";
 
 }  // namespace
@@ -79,7 +79,7 @@ void couplingScheme::advance(scalar t, scalar dt, int depth)
     advance(t + 0.5 * dt, 0.5 * dt, depth + 1);
 }
 
-// Takes the step, or undoes it and says why; the one after `most` halvings is the last
+// Takes the step, or undoes it and prints the reason.  fatalError if it is refused after `most` halvings
 bool couplingScheme::accepted(scalar t, scalar dt, int halvings, int most)
 {
     const particleCloud before = c_.cloud;
@@ -97,7 +97,7 @@ bool couplingScheme::accepted(scalar t, scalar dt, int halvings, int most)
     return false;
 }
 
-// Mean velocity where an observer may move along (shiftingFrame.H), or zero
+// Mean velocity if only cyclic patches bound the case (shiftingFrame.H), else zero
 vector couplingScheme::frame() const
 {
     vector sum = vector::Zero();

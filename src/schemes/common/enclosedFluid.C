@@ -11,8 +11,8 @@ namespace ispf
 namespace
 {
 
-// Share of the wetted area below which a pressure's forces on solid and fluid count as opposite: what is
-// left is the difference of two surface sums
+// A uniform pressure is balanced if its force on the solid is below this share of the wetted area.  The rest is
+// the difference of two surface sums
 constexpr scalar balanced = 0.3;
 
 }  // namespace
@@ -51,7 +51,7 @@ void enclosedFluid::setup(const solidGradient& gradientOf, const solidSurface* s
     allFree_ = wetted > 0 && loadsItself(gradientOf, wetted);
 }
 
-// Does the same pressure in all particles leave the solid alone?  Then nothing tells its level
+// True if a uniform pressure in all particles exerts no force on the solid.  Then nothing determines its level
 bool enclosedFluid::loadsItself(const solidGradient& gradientOf, scalar area) const
 {
     const particleCloud& cloud = c_.cloud;
@@ -119,7 +119,7 @@ void enclosedFluid::state::write(particleCloud& cloud) const
     to = defect, to.push_back(booked);
 }
 
-// Of the n particles that count(i) is true for
+// Takes the mean off the continuity rows of the n particles with counts(i)
 template <class Counts>
 void enclosedFluid::removeMean(Counts&& counts, label n, List<scalar>& rows) const
 {
@@ -163,7 +163,8 @@ void enclosedFluid::dropLevel(List<vec4>& up) const
 
 void enclosedFluid::keepLevel(const particleCloud& cloud, List<scalar>& z) const
 {
-    const label others = label(bodies_.size());  // all that no free body has, solids as well
+    // index of all particles that are in no free body, solids included
+    const label others = label(bodies_.size());
     List<scalar> change(others + 1, 0), n(others + 1, 0);
     const auto groupOf = [&](label i) {
         const label b = cloud.isFluid(i) ? bodyOf_[cloud.zone[i]] : -1;

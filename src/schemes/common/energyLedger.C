@@ -12,7 +12,7 @@ namespace ispf
 namespace
 {
 
-// Entry of cloud.history: the energies of the last step's end, the sums of the terms, and what is left over
+// Entry of cloud.history: the energies at the end of the last step, the sums of the terms, and leftOver
 const word entry = "energyLedger";
 
 }  // namespace
@@ -72,7 +72,8 @@ std::array<scalar, energyLedger::nStores> energyLedger::energies(const List<vec4
     return {kineticNow(), c_.structure ? c_.structure->energy(x) : 0, mass * heights};
 }
 
-// Energies have changed since the last step's end if particles were exchanged, if a force has changed, or by hand between runs
+// The energies differ from those at the end of the last step if particles were exchanged, a force has changed, or a user has
+// edited the case between runs
 void energyLedger::begin(const List<vec4>& x)
 {
     terms_ = {}, left_ = 0;
@@ -109,8 +110,8 @@ void energyLedger::bookFriction(const viscousPairs::power& friction, scalar fact
     terms_[walls] += factor * friction.walls, terms_[faces] += factor * friction.faces;
 }
 
-// The solver has left the rest of a row that is solved, against p less its mean.  The mean times the volume that is missed has
-// passed the boundary
+// `left` is the residual of a solved row.  The solver's term is its work against p less the mean p.  The mean p times the
+// missing volume is work of the boundary
 void energyLedger::bookRow(label i, const continuityRow& r, scalar level, scalar dt)
 {
     const particleCloud& cloud = c_.cloud;
@@ -159,9 +160,9 @@ std::pair<scalar, scalar> energyLedger::fromNothing() const
 {
     scalar gained = left_, of = end_[kinetic] + begin_[kinetic];
     for (int t = viscosity; t < nTerms; ++t) gained += terms_[t];
-    // what the solver leaves is its tolerance's business: fluid at rest under gravity, from a guess of p, has little else
+    // the residual is controlled by the solver's tolerance: fluid at rest under gravity, with a guessed p, gains little else
     gained -= terms_[solver];
-    // what has changed before the step, e.g. by hand between two runs, is not of its making
+    // a change before the step, e.g. by the user between two runs, is not made by the step
     gained -= begin_[elastic] - last_[elastic];
     for (int t = 0; t < nTerms; ++t) of += std::abs(terms_[t]);
     return {gained, of};

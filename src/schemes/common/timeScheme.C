@@ -11,7 +11,7 @@ namespace
 
 const scalar delta = 2 / std::sqrt(5.0);
 
-// Fields that go with the particles: the mean velocity of the last step [m/s]; during a step x_b - x^n [m]
+// Fields of the particles: mean velocity of the last step [m/s]; during a step x_b - x^n [m]
 const word lastWay = "way_0", aheadOfStep = "ahead";
 
 const vec4* fieldOf(const particleCloud& cloud, const word& name)
@@ -33,7 +33,7 @@ timeScheme::timeScheme(const fsiCase& c)
     keeps_ = DLN_;
 }
 
-// Dahlquist, Liniger & Nevanlinna with steps dt and before
+// Coefficients of Dahlquist, Liniger & Nevanlinna for the steps dt_ and before [s]
 void timeScheme::setCoefficients(scalar before)
 {
     const scalar e = (dt_ - before) / (dt_ + before), s = 1 / (1 + e * delta);
@@ -128,7 +128,7 @@ void timeScheme::end(particleCloud& cloud, energyLedger& energy)
         const vector u = (cloud.Up[i].xyz() - b1_ * un - b0_ * u0) / b2_;
         cloud.Up[i].setXyz(u);
         taken += (l2_ * u + l1_ * un + l0_ * u0).squaredNorm();
-        // of the kinetic energy over that which the scheme bounds
+        // gain of the kinetic energy less that of the bounded energy
         gained += 0.5 * (u.squaredNorm() - un.squaredNorm()) - stored(u, un) + stored(un, u0);
     }
     energy[energyLedger::step] += c_.rho * cloud.volume() * (gained - taken);
@@ -137,7 +137,7 @@ void timeScheme::end(particleCloud& cloud, energyLedger& energy)
     cloud.history[levelBefore] = {dt_};
 }
 
-// Velocity with which particle i goes through the step
+// Velocity with which particle i moves over the whole step
 simd4 timeScheme::mover(const particleCloud& cloud, label i, bool mean) const
 {
     if (const vec4* way = DLN_ ? fieldOf(cloud, lastWay) : nullptr) return way[i].s;

@@ -17,7 +17,7 @@ namespace ispf
 namespace
 {
 
-// [dx] Longest edge: a mesh as coarse as the CAD faces are flat would cut off what the solid bulges
+// Longest edge [dx]: a mesh as coarse as the flat CAD faces would cut off the bulges of the solid
 constexpr scalar longestEdge = 1.5;
 
 }  // namespace
@@ -48,7 +48,7 @@ trackedSurface::trackedSurface(const word& name, const fsiCase& c, const fileLoc
     attach(c, where);
     findRim(*c.walls);
     findApex(*c.walls);
-    // normals point into the fluid, as generateParticles writes them, unless the volume at rest says else
+    // normals point into the fluid, as generateParticles writes them, unless the volume at rest is negative
     scalar area = 0;
     for (label t = 0; t < rest_.size(); ++t) area += rest_.areaVector(t).norm();
     if (restVolume() < -1e-3 * area * c.cloud.dx) sign_ = 1;
@@ -97,7 +97,7 @@ void trackedSurface::findRim(const boundary& walls)
 {
     for (const auto& [a, b] : openHalfEdges(rest_))
     {
-        // in two dimensions the rim is the ends alone, not the edges of the slice
+        // in two dimensions the rim consists of the ends alone, without the edges of the slice
         const vector edge = rest_.nodes[b] - rest_.nodes[a];
         if (height_ > 0 && std::abs(edge[2]) < 1e-3 * height_) continue;
         const vector middle = rest_.nodes[a] + 0.5 * edge;
@@ -108,7 +108,7 @@ void trackedSurface::findRim(const boundary& walls)
     }
 }
 
-// A point in every symmetry plane and in the mean of the rim: planes through it add no volume
+// The mean point of the rim, projected to every symmetry plane: then these planes add no volume
 void trackedSurface::findApex(const boundary& walls)
 {
     apex_ = vector::Zero();
@@ -119,7 +119,8 @@ void trackedSurface::findApex(const boundary& walls)
         apex_ += 0.5 * part * (rest_.nodes[a] + rest_.nodes[b]), length += part;
     }
     if (length > 0) apex_ /= length;
-    for (int sweep = 0; sweep < 20; ++sweep)  // onto all planes; orthogonal ones need one
+    // onto all planes; for orthogonal planes one sweep is enough
+    for (int sweep = 0; sweep < 20; ++sweep)
         for (const auto& [point, normal] : walls.symmetryPlanes())
             apex_ -= (apex_ - point).dot(normal) * normal;
 }
@@ -136,7 +137,7 @@ void trackedSurface::update(const List<vec4>& x)
     });
 }
 
-// The rim's way since rest is closed by a ribbon: a rim that moves along with a wall leaves no gap
+// A ribbon closes the way of the rim since rest: a rim that moves along with a wall leaves no gap
 scalar trackedSurface::volumeBelow(const triSurface& s) const
 {
     scalar volume = 0;

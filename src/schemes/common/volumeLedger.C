@@ -36,7 +36,7 @@ volumeLedger::volumeLedger(fsiCase& c)
         cavity0_ = cavity_->restVolume();
     }
     wall0_ = wallVolume();
-    if (cavity_ || c.structure)  // survives a restart
+    if (cavity_ || c.structure)  // the history keeps it over a restart
     {
         List<scalar>& state = c.cloud.history["volumeLedger"];
         if (state.size() == 3) controlled_ = state[0], source_ = state[1], wall0_ = state[2];
@@ -63,7 +63,7 @@ scalar volumeLedger::wallVolume() const
     return sum * c_.cloud.volume() * c_.walls->symmetryFactor();
 }
 
-// The last number of an entry of the history, of the whole body
+// The last number of a history entry, for the whole body; 0 without the entry
 static scalar booked(const fsiCase& c, const word& entry)
 {
     const auto found = c.cloud.history.find(entry);
@@ -80,7 +80,7 @@ void volumeLedger::update(scalar dt)
     if (!cavity_) return;
     cavity_->update(c_.cloud.x);
     if (relaxation_ == 0) return;
-    // the source of the step now ending, then the next one: q = - r (V - V_target) / (V_fluid dt)
+    // books the source of the ending step, then sets the next one: q = - r (V - V_target) / (V_fluid dt)
     label n = 0;
     for (label i = c_.cloud.nSolid(); i < c_.cloud.n(); ++i)
         n += c_.cloud.zone[i] == zone_ && !c_.cloud.beyondOpen(i);

@@ -18,7 +18,7 @@ void coupledSystem::book(const List<vec4>& before, scalar theta, const List<vec4
     bookPressure(before, theta, q, drop, energy);
 }
 
-// (7.1) times dt u', over the rows that the ledger counts, without the step's first line
+// Books (7.1) times dt u' over the rows that the ledger counts, without the first line of the step
 void coupledSystem::bookMomentum(const List<vec4>& before, const List<vec4>& springForce,
                                  const List<vec4>& drop, energyLedger& energy) const
 {
@@ -41,7 +41,7 @@ void coupledSystem::bookMomentum(const List<vec4>& before, const List<vec4>& spr
             force += m * (c_.bodyForce[cloud.zone[i]] - hydrostatic_.acceleration());
         if (!drop.empty()) force -= V * drop[i].xyz();
         vector rest = viscousFactor() * lap_[i].xyz() + V * gp_[i].xyz() - force;
-        if (!drop.empty()) rest -= V * drop[i].xyz();  // it is in gp_ already
+        if (!drop.empty()) rest -= V * drop[i].xyz();  // gp_ contains it
         if (i < label(spring.size())) rest -= spring[i].xyz();
         forced += dt_ * u.dot(force);
         left += u.dot(m * gained + dt_ * rest);
@@ -52,7 +52,7 @@ void coupledSystem::bookMomentum(const List<vec4>& before, const List<vec4>& spr
     energy.bookSprings(spring, dt_);
 }
 
-// (7.2) times p': what the pressure does, row by row of continuity
+// Books (7.2) times p': the work of the pressure, continuity row by row
 void coupledSystem::bookPressure(const List<vec4>& before, scalar theta, const List<scalar>& q,
                                  const List<vec4>& drop, energyLedger& energy) const
 {

@@ -7,7 +7,7 @@ namespace ispf
 namespace
 {
 
-// The solid's own gradient of p into gs, for its stabiliser
+// Writes the solid's own gradient of p to gs, for the stabiliser
 void ownGradient(const particleCloud& cloud, const neighbourList& list, const List<tensor>& same,
                  List<vec4>& gs)
 {
@@ -73,7 +73,7 @@ void coupledRows::gradient(const List<vec4>& phi, List<vec4>& gp) const
     solidGradient(phi, gp);
 }
 
-// gp of the solid's rows: the forces of the constraint's pressure and of the fluid's load, per volume, for phi = {.., p}
+// gp of the solid's particles for phi = {.., p}: forces of the constraint's pressure and of the fluid's load, per volume
 void coupledRows::solidGradient(const List<vec4>& phi, List<vec4>& gp) const
 {
     if (!volume_) return;

@@ -14,7 +14,7 @@ void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solid
     rows_.setup(c_.cloud, c_.list, c_.correction, *c_.kernel, volume, surface);
     const List<scalar>& viscous = rows_.viscous().sum();
     const scalar inertia = c_.rho * cloud.volume() / dt;
-    // clamped particles carry no tangent among themselves: they weigh as the mean free one does
+    // clamped particles have no tangent among themselves: they get the mean diagonal of free ones
     scalar meanTangent = 0;
     label nFree = 0;
     for (label i = 0; K && i < cloud.nSolid(); ++i)
@@ -36,7 +36,7 @@ void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solid
                     surface);
 }
 
-// Ghosts whose pressure is not that of their source: over a cyclic pair with a drop
+// Ghosts whose pressure differs from that of their source, by the drop of a cyclic pair
 List<std::pair<label, scalar>> coupledSystem::pressureOffsets() const
 {
     const particleCloud& cloud = c_.cloud;
@@ -93,7 +93,7 @@ void coupledSystem::writeRows(const List<vec4>& phi, const List<vec4>& lap, cons
     enclosed_.balance(y);
 }
 
-// {G p, p} of the fluid, {0, p} of the solid, ghosts filled
+// gs = {G p, p} of the fluid, {0, p} of the solid, ghosts filled
 void coupledSystem::stabiliserGradient(const List<vec4>& gp, List<vec4>& gs) const
 {
     const particleCloud& cloud = c_.cloud;
@@ -106,7 +106,7 @@ void coupledSystem::stabiliserGradient(const List<vec4>& gp, List<vec4>& gs) con
     cloud.fillGradientGhosts(gs);
 }
 
-// G p of the pressure drops alone over cyclic patches, empty without
+// G p of the pressure drops over cyclic patches alone; empty if there are none
 List<vec4> coupledSystem::gradientOfDrops() const
 {
     List<vec4> drop;
@@ -117,7 +117,7 @@ List<vec4> coupledSystem::gradientOfDrops() const
     return drop;
 }
 
-// The memory of the solid's stabiliser
+// Adds C (theta p^n) of the solid: the memory of its stabiliser
 void coupledSystem::addSolidMemory(const List<vec4>& before, scalar theta, List<scalar>& rows) const
 {
     const particleCloud& cloud = c_.cloud;
@@ -133,7 +133,7 @@ void coupledSystem::rightHandSide(scalar theta, const List<vec4>& springForce,
                                   const List<scalar>& q, List<scalar>& b) const
 {
     const particleCloud& cloud = c_.cloud;
-    // u = p = 0 with the boundary's values: what the rows give now belongs on the right
+    // u = p = 0 with the values of the boundary: the rows then give what belongs on the right side
     phi_.assign(cloud.nAll(), vec4{});
     cloud.fillGhosts(phi_, false);
     rows_.viscous().apply(phi_, lap_);

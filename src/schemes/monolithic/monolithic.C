@@ -3,13 +3,13 @@
 //
 //     monolithic
 //     {
-//         tolerance   1e-4;     // of the step's initial residual
+//         tolerance   1e-4;     // share of the step's initial residual
 //         absTolerance 1e-5;    // times the velocity scale, per particle: a floor for warm starts
 //         maxIter     150;
-//         theta       0.95;     // memory of the pressure stabiliser; fluid alone: 0, it moves on
-//         volumeFeedback 0.1;   // relaxes J - 1 of the solid, per step; booked by the volume ledger
-//         divergenceDefect yes; // what rates miss over a step is made good in the next: of the area of the surface,
-//                               // enclosedFluid.H; of the volume of a solid that turns, volumeConstraint.H
+//         theta       0.95;     // memory of the pressure stabiliser; 0 for fluid alone, whose particles move on
+//         volumeFeedback 0.1;   // share of J - 1 of the solid removed per step; the volume ledger books it
+//         divergenceDefect yes; // the next step corrects what the rates of a step miss: for the area of the surface,
+//                               // see enclosedFluid.H; for the volume of a solid that turns, volumeConstraint.H
 //         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
 //     }
 //     shifting { ... }     densityFeedback 0;
@@ -35,10 +35,10 @@ namespace ispf
 namespace
 {
 
-// What the rate of J has missed in the last step
+// Field of the particles: error of J that the rate of J has left in the last step
 const word missedField = "missedJ";
 
-// Below this cell Reynolds number viscosity damps what dx does not resolve
+// Below this cell Reynolds number viscosity damps the scales that dx does not resolve
 constexpr scalar resolved = 5;
 
 struct monolithicEntries
@@ -132,8 +132,8 @@ private:
     List<tensor> F_;
     List<vec4> springsAt_, springForce_;
     List<scalar> q_;      // sources of the step [1/s]
-    List<scalar> left_;   // what the solver leaves of continuity [1/s]
-    List<scalar> ahead_;  // J that the first step of DLN makes good in advance, else empty [1]
+    List<scalar> left_;   // residual of continuity after the solution [1/s]
+    List<scalar> ahead_;  // J that the first step of DLN corrects in advance, else empty [1]
     blockMatrix3 K_;
 };
 
@@ -142,8 +142,8 @@ scalar monolithic::velocityScale() const
     return std::max(c_.cloud.maxSpeed(), c_.walls->maxGivenSpeed());
 }
 
-// What rounding leaves of a row: of the springs' positions and of the pressure gradient [m/s].  At rest
-// it is the only scale there is
+// Rounding error of a row: of the springs' positions and of the pressure gradient [m/s].  At rest
+// no other scale exists
 scalar monolithic::rounding(scalar dt, const List<scalar>& z) const
 {
     const particleCloud& cloud = c_.cloud;
@@ -153,7 +153,7 @@ scalar monolithic::rounding(scalar dt, const List<scalar>& z) const
     return 16 * std::numeric_limits<scalar>::epsilon() * (x / dt + dt / (c_.rho * cloud.dx) * p);
 }
 
-// No limit of stability; where the step is adjusted, the fluid's motion rules it for accuracy
+// Stability sets no limit.  With adjustTimeStep the motion of the fluid sets one, for accuracy
 couplingScheme::stepLimit monolithic::admitted() const
 {
     const scalar u = velocityScale();
@@ -174,8 +174,8 @@ void monolithic::structureState()
     surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
 }
 
-// The last step's change goes on.  With a pressure that rises steadily this starts nearer to the
-// solution than {u, p} of now, by a factor of ten and more
+// Extrapolates the change of the last step.  If the pressure rises steadily, this guess is nearer to the
+// solution than the present {u, p}, by a factor of ten and more
 List<scalar> monolithic::guess() const
 {
     const particleCloud& cloud = c_.cloud;
@@ -197,7 +197,7 @@ List<scalar> monolithic::guess() const
     return z;
 }
 
-// Volume sources of solid particle i [1/s]
+// Volume source of solid particle i that relaxes J to 1 [1/s]
 scalar monolithic::feedback(label i, scalar dt) const
 {
     return -alpha_ * (F_[i].determinant() - 1) / dt;
@@ -226,7 +226,7 @@ void monolithic::accept(const List<scalar>& z)
         cloud.Up[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], z[4 * i + 3]};
 }
 
-// Books what the step's sources have put in; what its rates have missed is for the next
+// Books the volumes that the step's sources have added, and keeps the errors of its rates for the next step
 void monolithic::account(scalar dt)
 {
     density_.book(c_.cloud, dt);
@@ -240,15 +240,15 @@ void monolithic::account(scalar dt)
         List<scalar> missed;
         volume_->overStep(c_.cloud.Up, time_.midway() ? 0 : dt, missed);
         for (size_t i = 0; i < ahead_.size(); ++i) missed[i] -= ahead_[i];
-        // J has this much of the solver's rest, doc/theory 5.6
+        // the solver's residual has changed J by this, doc/theory 5.6
         for (size_t i = 0; i < missed.size(); ++i) missed[i] += dt * left_[i];
         std::copy(missed.begin(), missed.end(), c_.cloud.scalars.at(missedField).begin());
     }
-    // midway the geometry is the step's mean already
+    // with forces at x_b the geometry is the mean over the step already
     system_.enclosed().account(c_.cloud, dt, dF, time_.midway() ? 0 : dt);
 }
 
-// div u is to be zero where the particles will be, and J one
+// Adds sources so that div u is zero at the next places of the particles, and J is one there
 void monolithic::addWay(scalar dt)
 {
     particleCloud& cloud = c_.cloud;
@@ -263,7 +263,7 @@ void monolithic::addWay(scalar dt)
         if (!cloud.beyondOpen(i)) q_[i] += dt * loses[i];
 }
 
-// Solves for z = {u, v, w, p} of the end of the step; an empty text, or why it cannot be accepted
+// Solves for z = {u, v, w, p}.  Returns an empty text or the reason why the step cannot be accepted
 word monolithic::solve(scalar dt, List<scalar>& z)
 {
     const particleCloud& cloud = c_.cloud;
@@ -294,7 +294,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     system_.enclosed().keepLevel(cloud, z);
     result.print();
     keepContinuityErrors(b, z, dt);
-    // measured: a tenth of the tolerance's digits still steps stably, no reduction at all does not
+    // measured: steps stay stable with far less reduction than the tolerance, but not without any
     if (!result.converged && !(result.finalResidual < 100 * tolerance_ * result.initialResidual))
         return "the coupled system did not converge (residual " + str(result.finalResidual, 3) +
                " of " + str(result.initialResidual, 3) + " after " +
@@ -303,7 +303,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
     return "";
 }
 
-// Prints and keeps what the solver leaves of D u - C (p - theta p^n) = q; the system's rows are scaled by dx
+// Prints and keeps the residual of D u - C (p - theta p^n) = q; the rows of the system are scaled by dx
 void monolithic::keepContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt)
 {
     List<scalar> Az(b.size());
@@ -355,7 +355,7 @@ word monolithic::attempt(scalar t, scalar dt)
     if (const word reason = tooRough(time_, dt); !reason.empty()) return reason;
 
     c_.followOpen(dt);
-    // Shift first, with the neighbours at hand, then move
+    // shift with the present neighbours, then move
     shift(shifting_, dt);
     move(time_);
     energy_.end();

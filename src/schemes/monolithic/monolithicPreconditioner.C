@@ -7,9 +7,9 @@ namespace ispf
 namespace
 {
 
-// What the solid takes of the Laplacian's solution.  D A^-1 G answers more stiffly there than the pair
-// Laplacian with the diagonal of A says: all of it (1) costs more iterations in every step of the HCC, none
-// (0) in the first steps
+// Share of the Laplacian's solution that the solid takes.  There D A^-1 G is stiffer than the pair
+// Laplacian with the diagonal of A.  The whole solution (1) costs more iterations in every step of the HCC,
+// none (0) more in the first steps
 constexpr scalar solidShare = 0.3;
 
 const word solidFactor = "solidFactor";
@@ -19,7 +19,7 @@ const word solidFactor = "solidFactor";
 monolithicPreconditioner::entries::entries(const dictionary& dict)
     : beta(dict.getInRangeOrDefault("beta", 0, 10, 1)), solid(dict.subOrEmptyDict("solid"))
 {
-    // One V-cycle is the cheapest that serves FGMRES
+    // One V-cycle costs FGMRES least
     multigrid.cycle = "V", multigrid.omega = 1.2;
     multigrid.read(dict.subOrEmptyDict("multigrid"));
 }
@@ -72,8 +72,8 @@ void monolithicPreconditioner::buildLaplacian()
         return cloud.isFluid(i) ? system_.dt() / c.rho : system_.tau()[i];
     };
 
-    // Row i: sum_j -2 F_ij tau_ij (p_i - p_j), images folded into their source, rigid ones dropped
-    // (dp/dn = 0); rows of given pressure carry the diagonal alone.
+    // Row i: sum_j -2 F_ij tau_ij (p_i - p_j).  Images count for their source, rigid neighbours are left out
+    // (dp/dn = 0).  The row of a given pressure has its diagonal alone.
     const auto row = [&](label i, auto&& entry) {
         scalar d = 0;
         if (cloud.pHeld(i)) return d;
@@ -100,13 +100,13 @@ void monolithicPreconditioner::buildLaplacian()
             row(i, [&](label j, scalar a) { L_.column[k] = j, L_.value[k++] = a; });
         }
     });
-    // rows without neighbours, or of given pressure: any positive diagonal of the right size
+    // rows without neighbours and rows of given pressure: any positive diagonal of the right size
     const scalar largest = *std::max_element(L_.diagonal.begin(), L_.diagonal.end());
     for (scalar& d : L_.diagonal)
         if (!(d > 0)) d = largest;
 }
 
-// u = A^-1 r_u, r the scaled residual
+// u = A^-1 r_u for the scaled residual r
 void monolithicPreconditioner::momentum(const List<scalar>& r, List<vec4>& u) const
 {
     const particleCloud& cloud = system_.fsi().cloud;

@@ -25,7 +25,7 @@ void solidBlock::assemble(const blockMatrix3& K, scalar dt, const List<scalar>& 
     As_ = K;
     for (label i = 0; i < K.size(); ++i)
     {
-        // inertia and viscosity: what A_ii holds beside the tangent
+        // inertia and viscosity: A_ii without the tangent
         const scalar rest = A[i] - dt * K.diagonal[i].trace() / cloud.nDims;
         As_.diagonal[i] = dt * K.diagonal[i] + rest * tensor::Identity();
         if (cloud.uFixed[i]) As_.diagonal[i] = A[i] * tensor::Identity();

@@ -56,7 +56,7 @@ void fractionalStep::setup(particleCloud& cloud, const stencil& s, const smoothi
     operator_.setup(cloud, s.list, pair_, compact_);
 }
 
-// dt/rho G p; nothing where the velocity is prescribed
+// dt/rho G p, zero where the velocity is prescribed
 List<vec4> fractionalStep::corrected(const particleCloud& cloud, scalar dt)
 {
     List<scalar> p(cloud.n());
@@ -75,7 +75,7 @@ void fractionalStep::predict(particleCloud& cloud, const stencil&, const List<ve
     added_ = a, before_.assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
     if (implicit_)
     {
-        // the p that a case starts from is a guess
+        // the first p of a case is a guess
         List<vec4> change(cloud.n(), vec4{});
         if (!first_) change = corrected(cloud, dt);
         List<vec4> dtA(a);
@@ -102,8 +102,8 @@ void fractionalStep::predict(particleCloud& cloud, const stencil&, const List<ve
     });
 }
 
-// Residual of the pressure equation when the divergence is round-off: fluid at rest, a flow that is
-// free of divergence on a lattice
+// Floor of the residual of the pressure equation: its value when the divergence is only rounding, as in fluid at rest or in
+// a flow on a lattice that is free of divergence
 scalar fractionalStep::floor(const particleCloud& cloud, scalar dt) const
 {
     return 1e-9 * rho_ / dt * maxSpeed(cloud) / cloud.dx * std::sqrt(scalar(cloud.n()));
@@ -137,7 +137,7 @@ void fractionalStep::project(particleCloud& cloud, const stencil& s, const List<
     cloud.history[projected] = {dt};
 }
 
-// No way lies before the first step: the p that it leaves has the rest of s as well
+// No motion precedes the first step of a run: the p that this step leaves gets the rest of s
 void fractionalStep::settle(particleCloud& cloud, scalar cellSize, scalar dt)
 {
     if (!first_ || leaves() == 1) return;
@@ -146,14 +146,14 @@ void fractionalStep::settle(particleCloud& cloud, scalar cellSize, scalar dt)
     solvePressure(cloud, f_, cellSize, dt);
 }
 
-// With the gradient of the correction
+// Needs gradient_ of the correction
 void fractionalStep::book(particleCloud& cloud, scalar dt, energyLedger& energy)
 {
     bookMomentum(cloud, dt, energy);
     bookPressure(cloud, dt, energy);
 }
 
-// (6.10) and (6.12), over the rows that the ledger counts, without the step's first line
+// Books (6.10) and (6.12) over the rows that the ledger counts, without the first line of the step
 void fractionalStep::bookMomentum(particleCloud& cloud, scalar dt, energyLedger& energy)
 {
     List<vec4> lap;
@@ -177,7 +177,7 @@ void fractionalStep::bookMomentum(particleCloud& cloud, scalar dt, energyLedger&
     energy[energyLedger::solver] += m * left;
 }
 
-// (6.11) and (6.6): what p does, row by row of continuity
+// Books (6.11) and (6.6): the work of p, continuity row by row
 void fractionalStep::bookPressure(particleCloud& cloud, scalar dt, energyLedger& energy)
 {
     List<vec4> m(cloud.nAll());
@@ -205,7 +205,7 @@ void fractionalStep::correct(particleCloud& cloud, scalar dt)
     for (label i = 0; i < cloud.n(); ++i) cloud.Up[i].s -= change[i].s;
 }
 
-// Mean of what is given, 0 if nothing is
+// Mean of the given pressures, 0 if there are none
 scalar fractionalStep::givenLevel(const particleCloud& cloud) const
 {
     scalar level = 0;
@@ -215,14 +215,15 @@ scalar fractionalStep::givenLevel(const particleCloud& cloud) const
     return nGiven > 0 ? level / nGiven : 0;
 }
 
-// The p that a case starts from is a guess
+// The first p of a case is a guess: all particles get the level of the given pressures
 void fractionalStep::startPressure(particleCloud& cloud) const
 {
     const scalar level = givenLevel(cloud);
     for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] = level;
 }
 
-// p of M p = f, from the p that it finds.  The level of what is given is left out: a tolerance shall not depend on it
+// Solves M p = f for p, from the present p on.  The level of the given pressures is subtracted: the tolerance must not
+// depend on it
 void fractionalStep::solvePressure(particleCloud& cloud, const List<scalar>& f, scalar cellSize,
                                    scalar dt)
 {
@@ -244,7 +245,7 @@ void fractionalStep::solvePressure(particleCloud& cloud, const List<scalar>& f, 
     for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] = p_[i] + level;
 }
 
-// bookPressure has left the divergence of the velocities at the end of the step in div_
+// bookPressure has stored the divergence of the final velocities in div_
 void fractionalStep::printContinuityErrors(particleCloud& cloud, const List<scalar>& q, scalar dt)
 {
     for (label i = 0; i < cloud.n(); ++i) div_[i] -= q.empty() ? 0 : q[i];

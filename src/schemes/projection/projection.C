@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// coupling projection: the paper's algorithm for fluid and soft walls, explicit springs.  Entries
+// coupling projection: the algorithm of the paper for fluid and soft walls, with explicit springs.  Entries
 // of system/sphSolution:
 //
 //     projection
@@ -31,7 +31,7 @@ namespace ispf
 namespace
 {
 
-// Entry of cloud.history: slope of p along cyclic patches in the last step, if it is not zero [Pa/m]
+// Entry of cloud.history: slope of p along cyclic patches in the last step, absent if it is zero [Pa/m]
 const word slopeOfStep = "pressureSlope";
 
 struct projectionEntries
@@ -113,7 +113,7 @@ couplingScheme::stepLimit projection::admitted() const
     return limits_.ruling(accelerations(c_.walls->pressureSlope(), spring));
 }
 
-// Body force of the zone, springs, Eq. (2) of the paper, and the slope of p along cyclic patches
+// Accelerations by the body force of each zone, by springs (Eq. (2) of the paper) and by the slope of p along cyclic patches
 List<vec4> projection::accelerations(const vector& slope, List<vec4>& spring) const
 {
     const particleCloud& cloud = c_.cloud;
@@ -141,7 +141,7 @@ List<scalar> projection::sources() const
     return q;
 }
 
-// An elastic wall gives way, whatever is pushed
+// Refuses walls that push into closed fluid.  attempt() calls it without a structure only: an elastic wall gives way
 void projection::checkPushed(const List<label>& bodyOf) const
 {
     if (std::all_of(bodyOf.begin(), bodyOf.end(), [](label b) { return b < 0; })) return;
@@ -161,8 +161,8 @@ vector projection::slopeBehind() const
     return found == c_.cloud.history.end() ? vector(vector::Zero()) : vector(found->second.data());
 }
 
-// A pressure that falls from period to period is a force, and p less that slope repeats itself.  ofState: the slope that p
-// of the state has, that of its step
+// A pressure that falls from period to period acts as a body force; p less this slope is periodic.  Adds sign times the
+// slope: ofState to p of the particles, slope_ of the step to given pressures, ghosts and gradients
 void projection::addSlope(scalar sign, const vector& ofState)
 {
     if (slope_.isZero(0) && ofState.isZero(0)) return;
@@ -232,7 +232,7 @@ word projection::attempt(scalar t, scalar dt)
     time_.end(cloud, energy_);
     if (const word reason = tooRough(time_, dt, mean_); !reason.empty()) return reason;
     c_.followOpen(dt);
-    // shifted with the neighbours at hand, then moved
+    // shift with the present neighbours, then move
     shift(shifting_, dt);
     move(time_, mean_);
     energy_.end();

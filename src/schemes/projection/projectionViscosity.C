@@ -19,7 +19,7 @@ List<vec4> unpacked(const List<scalar>& x)
     return u;
 }
 
-// Unknowns {u, v, w, 0} per particle; prescribed velocities have identity rows and enter as zero
+// Unknowns {u, v, w, 0} per particle.  Prescribed velocities have identity rows and enter the products as zero
 class viscousOperator : public linearOperator
 {
 public:
@@ -87,7 +87,7 @@ void projectionViscosity::solve(particleCloud& cloud, const laplacian& lap, cons
                                 scalar dtNu)
 {
     const label n = cloud.n();
-    // what walls and images bring by their offsets, and what prescribed velocities bring
+    // contribution of walls and images through their offsets, and of prescribed velocities
     List<vec4> given(n);
     for (label i = 0; i < n; ++i)
         if (cloud.uFixed[i]) given[i] = vec4::from(cloud.Up[i].xyz());

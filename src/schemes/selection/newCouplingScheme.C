@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The coupling schemes that there are; fsiCase.C reads which one
+// The list of coupling schemes.  fsiCase.C reads the entry `coupling`
 #include "couplingScheme.H"
 
 namespace ispf
@@ -12,7 +12,8 @@ void checkProjectionEntries(const fsiCase& c);
 
 std::unique_ptr<couplingScheme> couplingScheme::New(fsiCase& c)
 {
-    // what the other scheme reads may stay, as one word changes the coupling, but must be what it would read
+    // entries of the other scheme may stay, because one word changes the coupling; they are checked as that scheme reads
+    // them
     (c.coupling == "monolithic" ? checkProjectionEntries : checkMonolithicEntries)(c);
     return c.coupling == "monolithic" ? newMonolithic(c) : newProjection(c);
 }

@@ -13,11 +13,11 @@ namespace
 using matrix = Eigen::MatrixXd;
 using row = Eigen::RowVectorXd;
 
-// Singular values below this share of the greatest: linear modes that the particles do not span (one
+// Modes with singular values below this share of the largest are left out: linear modes that the particles do not span (one
 // layer), quadratic modes that would amplify noise (two layers)
 constexpr scalar linearCut = 1e-6, quadraticCut = 0.02;
 
-// The columns as functions of the particles; their values, and below them their three derivatives, at the point itself
+// Columns: functions at the particles.  atPoint: their values at the point, and below these their three derivatives
 struct basis
 {
     matrix columns;
@@ -31,7 +31,7 @@ struct basis
     }
 };
 
-// Orthonormal modes of b whose singular values are above cut times the greatest
+// Orthonormal modes of b with singular values above cut times `greatest`
 basis orthonormal(const basis& b, scalar cut, scalar greatest)
 {
     const Eigen::JacobiSVD<matrix> svd(b.columns, Eigen::ComputeThinU | Eigen::ComputeThinV);
@@ -49,7 +49,7 @@ basis orthonormal(const basis& b, scalar cut, scalar greatest)
 List<scalar> followWeights(const List<vector>& r, List<vector>* slopes)
 {
     const Eigen::Index n = Eigen::Index(r.size());
-    Eigen::VectorXd root(n);  // of the fit's weight
+    Eigen::VectorXd root(n);  // square root of the fit's weight
     for (Eigen::Index j = 0; j < n; ++j) root[j] = std::max(0.0, 1 - r[j].norm());
     if (!(root.norm() > 0)) return {};
 
@@ -60,7 +60,7 @@ List<scalar> followWeights(const List<vector>& r, List<vector>* slopes)
     {
         const vector& x = r[j];
         linear.columns.row(j) = root[j] * x.transpose();
-        // Kelvin's components: what is cut does not depend on the direction of the axes
+        // Kelvin's components: which modes are left out does not depend on the direction of the axes
         quadratic.columns.row(j) =
             root[j] * row{{x[0] * x[0], x[1] * x[1], x[2] * x[2], std::sqrt(2.0) * x[0] * x[1],
                            std::sqrt(2.0) * x[1] * x[2], std::sqrt(2.0) * x[2] * x[0]}};

@@ -41,7 +41,8 @@ scalar largestEigenvalue(const blockMatrix3& K, int products)
         for (label i = 0; i < n; ++i) Kv[i].s -= alpha * v[i].s + beta * before[i].s;
         diagonal.push_back(alpha);
         beta = std::sqrt(product(Kv, Kv));
-        if (!(beta > 1e-12 * alpha)) break;  // an invariant subspace: nothing more to find
+        // the subspace is invariant: it contains the eigenvalue
+        if (!(beta > 1e-12 * alpha)) break;
         beside.push_back(beta);
         for (label i = 0; i < n; ++i) before[i] = v[i], v[i].s = Kv[i].s / beta;
     }

@@ -9,7 +9,7 @@ namespace ispf
 namespace
 {
 
-// Sum of w (x_j - x_i)(X_j - X_i)^T over the pairs of row i that are no images
+// Sum of w (x_j - x_i)(X_j - X_i)^T over the pairs of row i without images
 ISPF_HOT void addOwn(const referenceNeighbours& pairs, const scalar* weight, const vec4* x,
                      const vec4* X, label i, tensor& S)
 {
@@ -22,7 +22,7 @@ ISPF_HOT void addOwn(const referenceNeighbours& pairs, const scalar* weight, con
     for (int a = 0; a < 3; ++a) S(a, 0) += c0[a], S(a, 1) += c1[a], S(a, 2) += c2[a];
 }
 
-// Sum of w (A_i + A_j)(X_j - X_i) over the pairs of row i that are no images; A by columns, three each
+// Sum of w (A_i + A_j)(X_j - X_i) over the pairs of row i without images; A is stored by columns, three each
 ISPF_HOT void ownForce(const referenceNeighbours& pairs, const scalar* weight, const vec4* X,
                        const vec4* A, label i, simd4& f)
 {
@@ -35,7 +35,7 @@ ISPF_HOT void ownForce(const referenceNeighbours& pairs, const scalar* weight, c
     f = sum + A[3 * i].s * arm[0] + A[3 * i + 1].s * arm[1] + A[3 * i + 2].s * arm[2];
 }
 
-// The same over images, A_j turned with them
+// The same sum over images; A_j turns with them
 vector imageForce(const referenceNeighbours& pairs, const structureReference& ref,
                   const scalar* weight, const List<tensor>& A, label i)
 {

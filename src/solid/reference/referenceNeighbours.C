@@ -18,7 +18,7 @@ struct candidate
     std::uint16_t image;
 };
 
-// Every particle, and every image that comes within `radius` of the particles' bounding box
+// Every particle, and every image within `radius` of the particles' bounding box
 struct candidateGrid
 {
     vector low;
@@ -32,7 +32,7 @@ struct candidateGrid
         vector high = low = ref.x0[0];
         for (const vector& x : ref.x0) low = low.cwiseMin(x), high = high.cwiseMax(x);
         low.array() -= radius, high.array() += radius;
-        // hollow bodies have empty cells: fewer than a hundred per particle are made
+        // hollow bodies have empty cells: at most about a hundred per particle are made
         cell = std::max(radius, std::cbrt((high - low).prod() / (100.0 * ref.n())));
         for (int d = 0; d < 3; ++d) size[d] = label((high[d] - low[d]) / cell) + 1;
 
@@ -84,7 +84,8 @@ struct candidateGrid
     }
 };
 
-using rowEntry = std::pair<std::uint16_t, std::int32_t>;  // image, index: sorts as documented
+// image, index: sorts own neighbours before images
+using rowEntry = std::pair<std::uint16_t, std::int32_t>;
 
 List<rowEntry> findRow(const structureReference& ref, const candidateGrid& grid, label i,
                        scalar radius)

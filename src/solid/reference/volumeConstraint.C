@@ -29,7 +29,7 @@ void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ, List<tensor>&
     for (size_t i = 0; i < dF.size(); ++i) dJ[i] = cofactor_[i].cwiseProduct(dF[i]).sum();
 }
 
-// F is linear and its cofactor at most quadratic in time, for which Simpson's rule is exact
+// F is linear in time and its cofactor at most quadratic: Simpson's rule is exact
 tensor meanCofactor(const tensor& F, const tensor& change)
 {
     return (cofactorOf(F) + 4 * cofactorOf(F + 0.5 * change) + cofactorOf(F + change)) / 6;

@@ -73,7 +73,7 @@ structureReference disorderedBlock(int nx, int ny, int nz, scalar dx, unsigned s
             for (int d = 0; d < ref.nDims; ++d)
                 x[d] = std::clamp(x[d], 0.2 * dx, size[d] - 0.2 * dx);
     };
-    std::mt19937 generator(seed);  // raw draws: the same numbers with every standard library
+    std::mt19937 generator(seed);  // raw numbers: the same with every standard library
     for (vector& x : ref.x0)
         for (int d = 0; d < ref.nDims; ++d)
             x[d] += 0.35 * dx * (2 * scalar(generator()) / scalar(generator.max()) - 1);

@@ -12,13 +12,13 @@ namespace ispf
 namespace
 {
 
-// Room for round-off and for a lattice known to a few digits only; the next shell is 20 % away
+// Allows for rounding and for a lattice known to few digits; the next shell is 20 % away
 constexpr scalar latticeTolerance = 0.02;
 
 scalar linkRadius(const dictionary& dict, const structureReference& ref)
 {
     const word links = dict.choose("links", {"lattice8", "lattice18", "radius"});
-    // a shell of lattice neighbours at exactly the radius is in
+    // includes a shell of lattice neighbours at exactly the radius
     if (links == "radius") return dict.getInRange("radius", 0.5, 10) * ref.dx * (1 + 1e-6);
     const int dims = links == "lattice8" ? 2 : 3;
     if (dims != ref.nDims)
@@ -41,7 +41,7 @@ word modulusKey(const dictionary& dict)
         {dict.path(), dict.scope(), 0});
 }
 
-// Mean over the particles that have all their neighbours: at least 95 % of the most that any has
+// Mean over the particles with all their neighbours: at least 95 % of the largest number
 modulusTensor fullestModulus(const structureReference& ref, const referenceNeighbours& pairs,
                              const List<scalar>& k)
 {
@@ -116,7 +116,7 @@ void springLinks::setFitted(const dictionary& dict, const structureReference& re
 {
     G = dict.found("E") ? dict.getInRange("E", 1e-12, 1e15, dims::pressure) / 3
                         : dict.getInRange("G", 1e-12, 1e15, dims::pressure);
-    if (rule == "radius")  // a smooth end at the radius: half the scatter of a sharp one
+    if (rule == "radius")  // weights end smoothly at the radius: half the scatter of a sharp end
     {
         const scalar reach = dict.get<scalar>("radius") * ref.dx;
         for (size_t p = 0; p < k.size(); ++p)

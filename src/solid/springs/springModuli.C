@@ -60,7 +60,7 @@ quarticTensor quartic(const vector& n)
 {
     const scalar x = n[0], y = n[1], z = n[2], xx = x * x, yy = y * y, zz = z * z;
     const scalar r6 = std::sqrt(6.0),
-                 r12 = std::sqrt(12.0);  // roots of the multinomial coefficients
+                 r12 = std::sqrt(12.0);  // square roots of the multinomial coefficients
     quarticTensor q;
     q << xx * xx, yy * yy, zz * zz, 2 * xx * x * y, 2 * xx * x * z, 2 * yy * y * x, 2 * yy * y * z,
         2 * zz * z * x, 2 * zz * z * y, r6 * xx * yy, r6 * xx * zz, r6 * yy * zz, r12 * xx * y * z,
@@ -78,7 +78,7 @@ quarticTensor isotropicQuartic(int nDims)
 
 quarticRotation quarticTurn(const tensor& R)
 {
-    // least squares over directions enough to span the 15 components
+    // least squares over enough directions to span the 15 components
     constexpr int nDirections = 60;
     Eigen::MatrixXd before(nDirections, 15), after(nDirections, 15);
     for (int k = 0; k < nDirections; ++k)

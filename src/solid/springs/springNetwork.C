@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Particles tied by permanent linear springs: Monteleone et al., Eq. (2),
+// Structure model of particles tied by permanent linear springs: Monteleone et al., Eq. (2),
 //
 //     m_s f_s = k_e h sum_j (d0_sj - d_sj) (x_s - x_j)/d_sj,      k = k_e h
 //
 // with one stiffness k per link (springLinks).  A link to an image x_j' = R x_j + t stands in row
-// i, its inverse in row j; the energy counts each half, so that a quarter of a body between two
-// symmetry planes carries a quarter of its energy, and
+// i, its inverse in row j.  The energy counts each as half, so that a quarter of a body between two
+// symmetry planes has a quarter of its energy, and
 //
 //     f_i = -sum k (d - d0) n,   K_ii += A,   K_ij -= A R,   A = k [n n^T + (1 - d0/d)(I - n n^T)]
 //     tau_i = 1/(2 V) sum k (d - d0) d n n^T
 //
-// A link to an image of the particle itself has its -A R in an entry of column i: K_ii is no other than in a whole body.
+// A link to an image of the particle itself has its -A R in an entry of column i: K_ii is the same as in a whole body.
 #include "springLinks.H"
 #include "structureModel.H"
 #include "forPairs.H"
@@ -31,10 +31,10 @@ struct linkTable
     List<std::uint16_t> image;      // 0: the partner itself, m: images[m - 1]
     List<scalar> d0, k;
     List<label>
-        slot;  // block of the tangent's row; links to images of the particle itself have one, too
+        slot;  // block of the tangent's row; links to images of the particle itself have one too
 };
 
-// Rows of the links that move: between two clamped particles none is kept
+// Rows of the links that can move: links between two clamped particles are left out
 linkTable movingLinks(const springLinks& all, const List<char>& fixed)
 {
     linkTable links;
@@ -106,7 +106,7 @@ private:
         const vector xj = x[links_.index[p]].xyz();
         return x[i].xyz() - (links_.image[p] ? ref_.images[links_.image[p] - 1](xj) : xj);
     }
-    // The largest of value(d, d0, k) over all links
+    // Largest value(d, d0, k) over all links
     template <class Value>
     scalar largest(const List<vec4>& x, const Value& value) const;
 

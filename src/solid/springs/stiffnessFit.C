@@ -13,7 +13,7 @@ namespace
 
 constexpr scalar stayNear = 0.3;  // weight of (s - 1)^2 per row entry, two entries per link
 constexpr scalar most = 3, least = 1 / most;
-constexpr int iterations = 60;  // twenty change the moduli of walls by less than 1 %
+constexpr int iterations = 60;  // more than twenty change the moduli of walls by less than 1 %
 
 class fit
 {
@@ -84,7 +84,7 @@ fit::fit(const structureReference& ref, const referenceNeighbours& pairs, scalar
     scale();
 }
 
-// One factor on all links: the best fit of all particles' tensors to the target
+// Multiplies all links by one factor: the best fit of all particles' tensors to the target
 void fit::scale()
 {
     tensors(List<scalar>(k_.size(), 1), quarticTensor::Zero());
@@ -121,7 +121,7 @@ void fit::localMean()
         256);
 }
 
-// Of 1/2 sum |mean|^2 with respect to the multipliers: the adjoint of localMean, then of tensors
+// Gradient of 1/2 sum |mean|^2 with respect to the multipliers: the adjoint of localMean, then that of tensors
 void fit::gradient(List<scalar>& g)
 {
     parallelFor(

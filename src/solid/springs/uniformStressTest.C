@@ -11,7 +11,8 @@ namespace ispf
 namespace
 {
 
-constexpr scalar penalty = 50;  // over G: each outer pass divides the volume error by about it
+// over G: each outer pass divides the volume error by about this number
+constexpr scalar penalty = 50;
 constexpr int outerPasses = 4;
 constexpr scalar tolerance = 1e-5;
 
@@ -66,7 +67,7 @@ class blockDiagonal : public preconditioner
 public:
     blockDiagonal(const structureModel& model, const blockMatrix3& K) : inverse_(K.diagonal)
     {
-        // V/dx^2 (d tr strain/du)^2 is about a third; it only has to be near
+        // V/dx^2 (d tr strain/du)^2 is about a third; a rough value is enough
         const structureReference& ref = model.reference();
         const scalar volumetric =
             0.3 * penalty * model.shearModulus() * ref.volume() / (ref.dx * ref.dx);
@@ -128,10 +129,11 @@ stressResponse uniformStressTest(const structureModel& model,
 namespace
 {
 
-// Mean stress of the links in the part, per displacement
+// Mean stress of the links between particles with inside[i], per displacement
 tensor linkStress(const structureModel& model, const List<vec4>& u, const List<char>& inside)
 {
-    constexpr scalar small = 1e-4;  // of the displacement: the links' stress is not linear in it
+    // scale of the displacement: the stress of the links is not linear in it
+    constexpr scalar small = 1e-4;
     List<vec4> x(u.size());
     for (size_t i = 0; i < x.size(); ++i)
         x[i] = vec4::from(model.reference().x0[i] + small * u[i].xyz());
@@ -158,7 +160,7 @@ scalar modulusRatio(const structureModel& model, const vector& axis, const List<
         throw fatalError("No particle of the structure lies in the measured part");
     const auto middle = measured.begin() + std::ptrdiff_t(measured.size() / 2);
     std::nth_element(measured.begin(), middle, measured.end());
-    // softer edges leave more of the stress, and some across the axis, to the middle
+    // softer edges leave more stress to the middle, and some stress across the axis
     const tensor tau = linkStress(model, response.u, inside);
     const scalar across = (tau.trace() - axis.dot(tau * axis)) / (nDims - 1);
     return (axis.dot(tau * axis) - across) / (named * *middle);

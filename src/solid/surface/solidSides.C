@@ -23,7 +23,7 @@ solidSides::solidSides(const particleCloud& cloud, const neighbourList& list,
     owned_ = std::make_unique<imagedPoints>(x, 1.5 * cloud.dx, images);
 }
 
-// Does the wall's surface next to the nearest rigid particle lie before particle i?
+// True if the wall's surface next to the nearest rigid particle lies before particle i
 bool solidSides::beyondWall(label i) const
 {
     scalar nearest = 1e30;
@@ -38,7 +38,7 @@ bool solidSides::beyondWall(label i) const
     return beyond;
 }
 
-// Zone of what neighbour j of solid particle i is, or what it stands for beyond a wall; -1: no fluid
+// Fluid zone of neighbour j of solid particle i, or of the particle that j represents beyond a wall; -1: no fluid
 int solidSides::mirroredZone(label i, label j) const
 {
     if (cloud_.phase[j] == phaseType::mirror)
@@ -58,7 +58,7 @@ int solidSides::mirroredZone(label i, label j) const
     return next >= cloud_.nSolid() ? cloud_.zone[next] : -1;
 }
 
-// Half the mean way along n to the fluid on that side, of whatever zone
+// Half the mean way along n to the fluid on that side, in any zone
 vector solidSides::wayAhead(label i, const vector& n) const
 {
     scalar sum = 0, moment = 0;
@@ -73,7 +73,8 @@ solidSides::sides solidSides::of(label i) const
 {
     sides s;
     if (owned_ && beyondWall(i)) return s;
-    const scalar V = cloud_.volume(), least = 2e-3 * V / cloud_.dx;  // below it is out of sight
+    // a smaller area counts as no zone
+    const scalar V = cloud_.volume(), least = 2e-3 * V / cloud_.dx;
     List<vector> areas(cloud_.zones.size(), vector::Zero());
     forNeighbours<among::others>(list_, i, [&](pairIndex k, label j) {
         if (const int z = mirroredZone(i, j); z >= 0)

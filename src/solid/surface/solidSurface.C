@@ -72,7 +72,7 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
         256);
 }
 
-// The feet do not move within the solid: found once, from the rest state
+// Finds the feet from the rest state, once: they do not move within the solid
 void solidSurface::findFeet(const particleCloud& cloud, scalar support,
                             const List<isometry>& images)
 {
@@ -117,8 +117,8 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
     }
 }
 
-// F on the surface, (5.2): an inflated ring's layers are stretched the less the deeper they lie, and F of the particles next
-// to it sees those behind them alone
+// F on the surface, (5.2).  The layers of an inflated ring are stretched less the deeper they lie, and F of the particles
+// next to the surface contains only the layers behind them
 tensor solidSurface::gradientAtFoot(int s, label i) const
 {
     const feet& f = feet_[s];
@@ -147,7 +147,7 @@ vector solidSurface::areaAtRest(int s, label i) const
 
 vector solidSurface::velocityAtFoot(int s, label i, const List<vec4>& u) const
 {
-    // what is clamped moves as one up to its edge, whatever its neighbours' motion extrapolates to
+    // a clamped body moves as one up to its edge, whatever an extrapolation from its neighbours gives
     if (cloud_->uFixed[i]) return u[i].xyz();
     const feet& f = feet_[s];
     vector at = vector::Zero();
@@ -206,7 +206,7 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
             w[k - row.first] = kernel.W((cloud.x[i].xyz() - cloud.x[j].xyz()).norm());
             sum += w[k - row.first];
         });
-        if (sum == 0) part.side = -1;  // it sees no fluid: no load, no flux
+        if (sum == 0) part.side = -1;  // the particle sees no fluid: no load, no flux
         for (pairIndex q = 0; q < row.size() && sum > 0; ++q) w[q] /= sum;
     }
 }
@@ -239,7 +239,7 @@ void solidSurface::loads(const List<vec4>& up, List<vec4>& Q, List<tensor>& P) c
         256);
 }
 
-// visit(solid particle, its side, neighbour, weight)
+// Calls visit(solid particle, its side, neighbour, weight)
 template <class Visit>
 void solidSurface::forShares(const Visit& visit) const
 {

@@ -12,9 +12,10 @@ namespace ispf
 namespace
 {
 
-// [dx] Of the kernel: layers of feet are no lattice, a narrower one would tell them apart
+// Reach of the kernel [dx]: layers of feet are no lattice, and a narrower kernel would see them one by one
 constexpr scalar reachByDx = 4;
-// |sum S.n w t| over reach C: packed walls have 0.003, 0.012 at most; half a reach from an edge it is 0.018
+// |sum S.n w t| over reach C, above which a point is near an end or edge: packed walls have 0.003, at most 0.012; half a
+// reach from an edge it is 0.018
 constexpr scalar offCentre = 0.015;
 constexpr scalar largest = 1.25;
 
@@ -24,7 +25,7 @@ scalar weight(scalar q)
     return q < 1 ? std::pow(1 - q, 4) * (1 + 4 * q) : 0;
 }
 
-// Sum of the weights about a point of a lattice of spacing dx
+// Sum of the weights about a point of a lattice with spacing dx
 scalar latticeCover(int nDims)
 {
     constexpr int m = int(reachByDx);
@@ -47,7 +48,7 @@ List<scalar> coverFactors(const List<vector>& x, const List<vector>& S, int nDim
         const vector& A = S[feet.source[k]];
         return feet.image[k] == 0 ? A : images[feet.image[k] - 1].R * A;
     };
-    // visit(source, projected area times weight, t) of all that the tangent plane at point i sees
+    // Calls visit(source, projected area times weight, t) for all vectors that the tangent plane at point i sees
     const auto around = [&](label i, auto&& visit) {
         const vector normal = S[i].normalized();
         feet.grid.within(x[i], reach, [&](label k, scalar) {
@@ -80,7 +81,7 @@ List<scalar> coverFactors(const List<vector>& x, const List<vector>& S, int nDim
             if (known[j] > 0) sum += w, mean += w * known[j];
         };
         around(i, [&](label j, scalar w, const vector&) { take(j, w); });
-        // a narrow face, as a flag's end: those around the corner
+        // a narrow face, such as the end of a flag: takes the factors around the corner
         if (sum == 0)
             feet.grid.within(x[i], reach,
                              [&](label k, scalar r) { take(feet.source[k], weight(r / reach)); });

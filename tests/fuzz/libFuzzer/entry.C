@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compiled once per target: TARGET is its name in targets.H
+// Compiled once per target: TARGET is the name in targets.H
 #include "targets.H"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, size_t size)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Flows that dx does not resolve lose energy, step by step, and keep their particles apart
+// Flows that dx does not resolve lose energy in every step and keep their particles apart
 // (doc/theory/2-operators.md, 7-monolithic.md)
 #include "caseOnDisk.H"
 #include "relative.H"
@@ -48,7 +48,7 @@ scalar kineticEnergy(const particleCloud& cloud)
     return sum;
 }
 
-// Of fluid, in dx
+// Closest pair of fluid particles [dx]
 scalar closestPair(const fsiCase& c)
 {
     scalar least = 1e30;
@@ -97,7 +97,7 @@ TEST_CASE(
                 CHECK(gain < 1e-6);
                 CHECK(before < start);
                 CHECK(least > 0.3);
-                // and no more than the step and viscosity damp
+                // and not more than step and viscosity damp
                 CHECK(before > (cellReynolds < 100 ? 0.2 : 0.4) * start);
             }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every kind of patch meets every other at the corner of a box in which four vortices die away: as Taylor and Green's do
-// exactly where the sides are free of friction, and otherwise without a hole, a jet or a lost particle at the corner
+// Every kind of patch meets every other kind at the corner of a box with four decaying vortices.  If the sides are free of
+// friction, the flow decays as Taylor and Green's.  Otherwise no hole, jet or lost particle may appear at the corner
 #include "core/errorOf.H"
 #include "boxCase.H"
 #include "relative.H"
@@ -89,7 +89,8 @@ boxCase cornerOf(const kindOfPatch& a, const kindOfPatch& b, const word& couplin
 {
     boxCase box;
     box.nx = box.ny = n, box.mu = 0.05, box.coupling = coupling;
-    box.solution = "closure { tolerance 1e-10; }";  // planes against none: to 1e-4 after a decay by 80
+    // planes against none: to 1e-4 after a decay by 80
+    box.solution = "closure { tolerance 1e-10; }";
     box.patch = {a.left, a.opposite, b.bottom, b.opposite};
     return box;
 }
@@ -124,7 +125,7 @@ TEST_CASE("corners between all kinds of patches")
                 }
                 else if (a->isFree() && b->isFree())
                 {
-                    // planes are no boundary; a wall's elements take p as that of the particle, exact to first order in dx
+                    // planes are no boundary; a wall element takes p of the particle, exact to first order in dx
                     const bool walls = a->name == "slip wall" || b->name == "slip wall";
                     CHECK(e == relative(unbounded, walls ? 1e-2 : 1e-4));
                 }

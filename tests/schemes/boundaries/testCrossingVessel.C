@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A soft channel with nothing outside, clamped at its ends, which reach beyond the open faces that a pressure drives
-// fluid through, to and fro
+// A soft channel with nothing outside, clamped at its ends.  The ends extend beyond the open faces, through which a pressure
+// drives fluid to and fro
 #include "capturedLog.H"
 #include "caseOnDisk.H"
 #include "relative.H"
@@ -16,7 +16,7 @@ namespace
 constexpr scalar dx = 1e-3;
 constexpr int nx = 24, ny = 10, thick = 3, strip = 2, clampedLength = 3;
 
-// Columns from -beyond to nx + beyond of the walls
+// Places columns of the walls from -beyond to nx + beyond
 void place(caseOnDisk& files, int beyond)
 {
     particleTable& t = files.particles();
@@ -76,7 +76,7 @@ scalar fluidInside(const particleCloud& cloud)
     return n;
 }
 
-// Cells between the innermost rows of the walls
+// Number of cells between the innermost rows of the walls
 scalar room(const particleCloud& cloud)
 {
     const List<vec4>& rest = cloud.vectors.at("x0");

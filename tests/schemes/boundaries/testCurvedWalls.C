@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Both kinds of wall where there is no equivalent problem without one: steady shear between plates and steady flow in a
+// Both kinds of wall in flows without an equivalent problem without walls: steady shear between plates and steady flow in a
 // pipe must converge with the spacing.
 #include "boundary/scene.H"
 #include "caseOnDisk.H"
@@ -31,7 +31,7 @@ List<vector> rings(scalar dx, scalar from, scalar to, scalar z = 0)
     return points;
 }
 
-// Shells of particles likewise, each a spiral of Fibonacci's
+// The same for shells of particles, each a Fibonacci spiral
 List<vector> shells(scalar dx, scalar from, scalar to)
 {
     List<vector> points;
@@ -88,7 +88,7 @@ public:
     }
     caseOnDisk files;
 
-    // Largest error of the speed, by the largest speed
+    // Largest error of the speed over the largest speed
     scalar error(const std::function<scalar(const vector&)>& exact) const
     {
         capturedLog log;
@@ -113,7 +113,7 @@ const word cyclicIn(const word& direction, scalar length)
            (direction == "x" ? str(length, 17) + " 0 0" : "0 0 " + str(length, 17)) + "); }";
 }
 
-// The lid of a plane channel moves, the bottom stands still
+// Error of the flow in a plane channel with a moving lid and a bottom at rest
 scalar shearError(const word& kind, int n)
 {
     const scalar dx = H / n;
@@ -159,8 +159,8 @@ scalar pipeError(const word& kind, int n)
         [](const vector& x) { return force / (4 * nu) * (H * H - x[0] * x[0] - x[1] * x[1]); });
 }
 
-// Fluid within a ball of mirrors, or between two, that is next to rest: factor by which its speed has grown after steps in
-// which it hardly moves, without viscosity
+// Factor by which the speed of fluid in a ball of mirrors, or between two balls, grows.  The fluid is almost at rest, hardly
+// moves in the steps and has no viscosity
 scalar growthAtRest(scalar dx, scalar from, scalar to)
 {
     caseOnDisk files("growthAtRest");
@@ -210,7 +210,7 @@ scalar growthAtRest(scalar dx, scalar from, scalar to)
 TEST_CASE("steady shear between plates: exact with mirrors, nearly with rigid particles")
 {
     CHECK(shearError("mirror", 8) < 1e-5);
-    // 3e-4, as the fluid drifts past them; ten times that if they stood for mirror images
+    // 3e-4, as the fluid moves past them; ten times that if they were mirror images
     CHECK(shearError("particles", 8) < 1e-3);
 }
 
@@ -219,13 +219,13 @@ TEST_CASE("steady flow in a pipe converges with either wall")
     const scalar coarse = pipeError("mirror", 4);
     CHECK(coarse < 0.01);                   // 0.73 %
     CHECK(pipeError("mirror", 16) < 0.01);  // 0.92 %
-    // 1.0 % each, which the order of the rings leaves; 4.6 % with 4 where walls are not of wallFriction.H
+    // 1.0 % each, due to the order of the rings; without wallFriction.H 4.6 % with 4
     CHECK(pipeError("particles", 4) < 0.015);
     CHECK(pipeError("particles", 8) < 0.015);
 }
 
-// Images of their particles' volume let it grow: 9 times in a ball of 3 dx, 1.5 times in one of 5 dx, 2.1 times around
-// one of 2.5 dx
+// If images had the volume of their particles, the speed would grow: 9 times in a ball of 3 dx, 1.5 times in one of 5 dx,
+// 2.1 times around one of 2.5 dx
 TEST_CASE("fluid at rest stays so in and around small balls of mirrors")
 {
     CHECK(growthAtRest(0.1, 0, 0.3) < 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every kind of ghost against the problem without a boundary that it stands for: the rows of all
-// operators equal those of a cloud in which the images are particles like any other.
+// Compares every kind of ghost with the equivalent problem without a boundary: the rows of all
+// operators equal those of a cloud in which the images are ordinary particles.
 #include "boundary/scene.H"
 #include "pairSums.H"
 #include "viscousPairs.H"
@@ -118,7 +118,7 @@ void setField(particleCloud& cloud)
     }
 }
 
-// Largest difference of any row, by the largest of its kind
+// Largest difference of any row, over the largest row of its kind
 scalar difference(const List<vector>& points, int nDims, const boundary* walls,
                   particleCloud& cloud, const List<copyMap>& copies)
 {
@@ -165,7 +165,7 @@ scalar against(int nDims, const word& patches, const List<copyMap>& copies,
 
 const vector ex = vector::UnitX(), ey = vector::UnitY(), ez = vector::UnitZ();
 
-// A sheet in the plane across axis d, wide enough, normal towards -d
+// A wide sheet in the plane across axis d, normal towards -d
 triSurface low(int d, scalar reach = 2)
 {
     const vector u = vector::Unit((d + 1) % 3), v = vector::Unit((d + 2) % 3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Open faces that give the velocity: Poiseuille's flow from the first step on, plug flow in a turned channel, a flow
-// rate that reverses, and fluid that cannot leave
+// rate that reverses, and fluid without an outlet
 #include "core/errorOf.H"
 #include "boxCase.H"
 #include "relative.H"
@@ -150,7 +150,7 @@ TEST_CASE("a level of the pressures at both ends does not drive the flow")
 namespace
 {
 
-// Fluid between the faces, counted smoothly across them
+// Volume of fluid between the faces, counted smoothly across them
 scalar inside(const boxCase& b, const particleCloud& cloud)
 {
     scalar sum = 0;
@@ -162,8 +162,8 @@ scalar inside(const boxCase& b, const particleCloud& cloud)
 
 }  // namespace
 
-// Runs that differ by rounding come to differ altogether, by 0.2 % of the volume; none may jump, and with the feedback they may
-// not drift together.  kicks [dx]: of the start
+// Runs that differ by rounding diverge in time, by 0.2 % of the volume.  The volume must not jump, and with the feedback it
+// must not drift.  kicks [dx]: displacements at the start
 TEST_CASE("a flow rate that reverses ten times: the channel keeps its volume, what enters leaves")
 {
     struct family
@@ -202,7 +202,7 @@ TEST_CASE("a flow rate that reverses ten times: the channel keeps its volume, wh
             CHECK(missing < (feedback ? 0.03e-3 : 1e-8));
             CHECK(inside(b, r.c.cloud) == relative(before, feedback ? 0.01 : 0.015));
             gained[feedback] += inside(b, r.c.cloud) / before - 1, ++runs[feedback];
-            // rho dU/dt L and friction together; what a jump of the flow in one step makes is 1000 Pa
+            // rho dU/dt L and friction together; a jump of the flow in one step would give 1000 Pa
             CHECK(highest < 200);
         }
     CHECK(std::abs(gained[1] / runs[1]) < 0.002);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A pressure drives the fluid of a channel through open faces at both ends, to and fro or through it: the
-// channel must keep its volume, and no gap may open.  One face is flat, the other of any shape.  Between two flat
-// ones steady flow is Poiseuille's.
+// A pressure drives the fluid of a channel through open faces at both ends, to and fro or in one direction.  The
+// channel must keep its volume, and no gap may open.  One face is flat, the other has any shape.  Between two flat
+// faces the steady flow is Poiseuille's.
 #include "boundary/scene.H"
 #include "boxCase.H"
 #include "relative.H"
@@ -24,7 +24,7 @@ struct face
     std::function<scalar(const vector&)> depth;
 };
 
-// Between x = length at the lower wall and, if oblique, further right at the upper one
+// A face at x = length at the lower wall and, if oblique, further right at the upper wall
 face straightFace(scalar lean)
 {
     face f;
@@ -129,7 +129,7 @@ struct running
     }
 };
 
-// Particles between the faces, counted smoothly across them
+// Number of particles between the faces, counted smoothly across them
 scalar inChannel(const scenario& s, const particleCloud& cloud)
 {
     scalar sum = 0;
@@ -138,7 +138,7 @@ scalar inChannel(const scenario& s, const particleCloud& cloud)
     return sum;
 }
 
-// Spots between the faces where there should be fluid
+// Points between the faces at which fluid is expected
 List<vector> spots(const scenario& s)
 {
     return scene::lattice(
@@ -146,8 +146,8 @@ List<vector> spots(const scenario& s)
         [&](const vector& p) { return s.inside(p) && s.depth(p) <= 0; }, 2);
 }
 
-// The volume is asked for over the last `counted` steps: at one instant it scatters with the particles that pass the faces.
-// Gaps at any time
+// Checks the volume as a mean over the last `counted` steps, because at one instant it scatters with the particles that pass
+// the faces.  Checks gaps at all times
 void check(const scenario& s, scalar dt, int steps, int counted = 1)
 {
     CAPTURE(s.coupling);
@@ -179,7 +179,7 @@ void checkReversals(scenario s)
     check(s, 4e-3, 500, 100);
 }
 
-// Mean velocity along the channel over that of Poiseuille flow, once steady
+// Steady mean velocity along the channel over that of Poiseuille flow
 scalar steadyFlow(const scenario& s, scalar pressure, scalar dt)
 {
     running r(s);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plug flow between slip walls, driven by P, from a face of given pressure to one behind a resistance (doc/theory 4.11):
+// Plug flow between slip walls, driven by P from a face with given pressure to a face with a resistance (doc/theory 4.11):
 //     rho L/H dQ/dt = P - R Q,   Q = P/R (1 - exp(-t/T)),   T = rho L/(H R)
 #include "boxCase.H"
 #include "core/errorOf.H"
@@ -29,7 +29,7 @@ scalar flow(const fsiCase& c)
     return c.cloud.history.at("outlet right").at(0);
 }
 
-// Largest p that the strip of the resistance was given, there is no slope to speak of
+// Largest p in the strip of the resistance; its slope is negligible
 scalar pressureBeyond(const fsiCase& c, scalar length)
 {
     scalar most = -1e30;
@@ -60,7 +60,7 @@ TEST_CASE(
             {
                 run.run(dt, 1);
                 Q = (Q * inertance + dt * P) / (inertance + dt * R);  // backward Euler
-                // the first step does not know yet with which slope p goes on in the strip
+                // in the first step the slope of p in the strip is not known yet
                 const scalar small = 0.1 * dt * P / (inertance + dt * R) + 1e-9;
                 CHECK(std::abs(flow(run.c) - Q) < 0.02 * Q + small);
                 if (step > 2)

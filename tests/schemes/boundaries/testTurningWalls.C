@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Walls that turn.  A vessel that turns with its fluid: u = omega x r is exact in a vessel of any shape, p = rho omega^2
-// r^2/2.  A drum that turns in itself spins its fluid up to the same.  A wall that slides to and fro: Stokes' second
-// problem.  Cyclic sides with a pressure drop: the flow of the body force that is as large.
+// r^2/2.  A drum whose wall turns in itself: its fluid reaches the same motion.  A wall that slides to and fro: Stokes'
+// second problem.  Cyclic sides with a pressure drop: the same flow as with an equal body force.
 #include "boundary/scene.H"
 #include "boxCase.H"
 #include "relative.H"
@@ -101,7 +101,7 @@ TEST_CASE("a square vessel that turns with its fluid, with both couplings")
             runSteps(c, *scheme, 5e-3, 63);  // a quarter turn
             CHECK(worstDeviation(c.cloud) < 0.05 * omega * 8 * dx);
             CHECK(std::abs(c.walls->balance()[0].swept) < 1e-12);
-            // it has gone round: nobody outside, and the pressure holds what turns
+            // after a full turn no particle is outside, and the pressure balances the rotation
             scalar p[2] = {0, 0}, n[2] = {0, 0};
             const scalar angle = omega * time.value();
             for (label i = 0; i < c.cloud.n(); ++i)
@@ -143,7 +143,7 @@ TEST_CASE("vessels of rigid particles that speed up or turn push their fluid in 
         {
             CAPTURE(n);
             runSteps(c, *scheme, dt, 1);
-            // the vessel's mean velocity over the step, and what it has gained since the one before
+            // mean velocity of the vessel over the step, and its change since the step before
             const scalar speed = a * (n - 0.5) * dt, gain = n == 1 ? a / 2 : a;
             scalar worst = 0;
             List<scalar> ours, exact;

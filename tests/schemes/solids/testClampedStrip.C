@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A strip clamped at one end in a box of fluid bends under a body force of its own, until the
-// coupled system is at rest, against the Timoshenko beam in plane strain.
+// A strip clamped at one end in a box of fluid bends under its own body force until the
+// coupled system is at rest; compared with the Timoshenko beam in plane strain.
 #include "capturedLog.H"
 #include "caseOnDisk.H"
 #include "sampleBodies.H"
@@ -25,7 +25,7 @@ struct strip
     scalar H() const { return layers * dx; }
     scalar L() const { return length * dx; }
     scalar load() const { return rho * acceleration * H(); }
-    // Of an incompressible strip, E/(1 - nu^2) = 4 G, clamped at x = 0; shear factor 5/6.
+    // Deflection of an incompressible strip, E/(1 - nu^2) = 4 G, clamped at x = 0; shear factor 5/6.
     scalar deflection(scalar x) const
     {
         const scalar EI = 4 * G * std::pow(H(), 3) / 12;
@@ -60,7 +60,7 @@ void place(caseOnDisk& files, const strip& s)
 
 const word links = "structureModel springNetwork; G " + str(G) + "; links radius; radius 2.6;";
 
-// Modulus of the free strip in tension over the one asked for
+// Modulus of the free strip in tension over the requested one
 scalar modulus(const strip& s)
 {
     const structureReference ref = latticeBlock(s.length, s.layers, 0, dx);
@@ -119,7 +119,7 @@ TEST_CASE("a clamped strip bends as a beam, the better the more layers it has")
         const scalar error = std::abs(b.tip * modulus(s) - 1);
         CHECK(std::abs(modulus(s) - 1) < 0.02);
         CHECK(b.speed < 0.01);
-        // the clamp holds from its first particles on: half a spacing at 20, 30 and 40 of length
+        // the clamp holds from its first particles on: half a spacing of a length of 20, 30 and 40 spacings
         CHECK(error < before);
         before = error;
     }

@@ -19,7 +19,7 @@ struct vessels
         cloud.nDims = 2, cloud.dx = 1;
         for (const word& z : zones) cloud.zones.push_back({z, phaseType::fluid, false});
     }
-    // 10 x 10 particles from x = left; those beyond y = 10 - open lie beyond an open face
+    // adds 10 x 10 particles from x = left on; those beyond y = 10 - open lie beyond an open face
     void add(scalar left, std::uint8_t zone, int open = 0, int width = 10)
     {
         for (int j = 0; j < 10; ++j)

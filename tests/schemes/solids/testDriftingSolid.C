@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A disc in fluid that nothing but cyclic pairs bounds.  Soft, and all of it moving at one speed: nothing happens as it
-// passes their planes.  Stiff, and carried by vortices: it keeps its area
+// A disc in fluid that only cyclic pairs bound.  A soft disc moving with all fluid at one speed does not change when it
+// passes their planes.  A stiff disc carried by vortices keeps its area
 #include "caseOnDisk.H"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ const word cyclicBox = R"(
     sides { type cyclic; point (0 0 0); separation (1 0 0); }
     ends  { type cyclic; point (0 0 0); separation (0 1 0); })";
 
-// The unit square, solids first: those within the radius of the middle, or, in a strip, those at middle height
+// The unit square, solids first: those within the radius of the middle or, in a strip, those at middle height
 void place(caseOnDisk& files, bool strip)
 {
     files.fill(20, 20, dx);
@@ -66,7 +66,7 @@ TEST_CASE("a solid that drifts over cyclic planes does so unnoticed, with both c
                     CHECK(std::abs(c.cloud.Up[i][3]) < 1e-4);
                     CHECK(c.list.start[i + 1] - c.list.start[i] ==
                           20);  // the lattice, seen whole also beyond planes
-                    // a body is never further out than half of it, and a step
+                    // a body is never further out than half of its size, and a step
                     CHECK(std::max({-x[0], -x[1], x[0] - side, x[1] - side}) <
                           (strip ? 0.5 * side : 4 * dx) + 0.02);
                 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fluid that nothing drains: a strip of elastic wall above a chamber with a piston and nothing behind it, and
-// boxes whose walls cannot give way, or can
+// Fluid that no open face drains: a strip of elastic wall above a chamber with a piston and empty space behind the wall, and
+// boxes with stiff or yielding walls
 #include "caseOnDisk.H"
 #include "relative.H"
 
@@ -14,7 +14,7 @@ namespace
 constexpr scalar dx = 0.01;
 constexpr int nx = 20, nWall = 4, nChamber = 8;
 
-// x = 0 and x = length are symmetry planes; the wall's two halves of the strip are free to rise together
+// x = 0 and x = length are symmetry planes; both halves of the strip are free to rise together
 struct chamber
 {
     caseOnDisk files;
@@ -83,7 +83,7 @@ TEST_CASE("walls that push into a box without a way out are refused")
         fsiCase moving(again);
         runSteps(moving, *couplingScheme::New(moving), 0.01, 1);
     };
-    // as much room above as is taken below
+    // as much room is added above as is taken below
     second("top { type wall; surface plane; point (0 0.12 0); normal (0 1 0); " + rising);
     CHECK_THROWS_WITH_AS(runSteps(c, *scheme, 0.01, 1), doctest::Contains("no other way out"),
                          fatalError);

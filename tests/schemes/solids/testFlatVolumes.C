@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Volumes of two-dimensional cases are areas: what a tracked surface encloses and what a wall sweeps, of
+// Volumes of two-dimensional cases are areas: the volume that a tracked surface encloses and that a wall sweeps, for
 // slices of any height
 #include "caseOnDisk.H"
 #include "relative.H"
@@ -14,7 +14,7 @@ namespace
 
 constexpr scalar dx = 0.01, length = 0.2, height = 0.013;
 
-// The parabola from (0, y) to (length, y), 1 dx deep
+// The parabola from (0, y) to (length, y), one dx deep
 void writeStrip(const word& path, const word& name, scalar y)
 {
     triSurface s;
@@ -53,7 +53,7 @@ TEST_CASE("area under a bent wall, and what a piston sweeps")
     Time time(files.path());
     fsiCase c(time);
     trackedSurface surface("wall_to_chamber", c);
-    // of the parabola the 80 segments cut off 1/80^2
+    // the 80 segments cut off 1/80^2 of the parabola
     const scalar area = std::pow(length, 3) / 6 * (1 - 1 / 6400.0);
     CHECK(surface.restVolume() == relative(area, 1e-6));  // STL has single precision
     for (label i = 0; i < c.cloud.n(); ++i) c.cloud.x[i][0] *= 1.1, c.cloud.x[i][1] *= 1.2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A plunger moved by a table: what it sweeps, and what it drives out of a channel
+// A plunger moved by a table: the volume that it sweeps and that it drives out of a channel
 #include "boundary/scene.H"
 #include "caseOnDisk.H"
 #include "relative.H"
@@ -87,12 +87,12 @@ void placeChannel(caseOnDisk& files)
     writeParticles(sites, files.path() + "/constant/openSites.hdf");
     writeParticles(rigid, files.path() + "/constant/wallParticles.hdf");
     std::filesystem::create_directories(files.path() + "/constant/triSurface");
-    // taller than the channel: only what lies between its sides counts
+    // taller than the channel: only the part between the sides counts
     writeSTL(sheet({0, -1e-2, -dx}, {0, 0, 2 * dx}, {0, height + 2e-2, 0}, 3),
              files.path() + "/constant/triSurface/plunger.stl");
 }
 
-// Particles before the face, counted smoothly across it
+// Number of particles before the face, counted smoothly across it
 scalar inChannel(const particleCloud& cloud)
 {
     scalar sum = 0;
@@ -103,7 +103,7 @@ scalar inChannel(const particleCloud& cloud)
 
 const word slip = "type symmetryPlane;";
 
-// A plunger at one end, sides, an open face at the other end
+// A channel with a plunger at one end, sides, and an open face at the other end
 void writeChannel(caseOnDisk& files, const word& coupling, const word& plunger,
                   const word& side = slip)
 {
@@ -118,7 +118,7 @@ void writeChannel(caseOnDisk& files, const word& coupling, const word& plunger,
     placeChannel(files);
 }
 
-// A plunger to and fro by a spacing, twenty times a second; cell Reynolds number 126 at its fastest
+// The plunger moves to and fro by a spacing, twenty times a second; largest cell Reynolds number 126
 const word toAndFro =
     "motion { direction (1 0 0); displacement { type sine; amplitude 1e-3; frequency 20; } }";
 constexpr scalar step = 5e-4, fastest = 1e-3 * 40 * M_PI;
@@ -152,7 +152,7 @@ TEST_CASE("what a plunger sweeps leaves the channel")
                 const scalar swept = c.walls->balance()[0].swept / c.cloud.volume();
                 return (before - inChannel(c.cloud)) / swept - 1;
             };
-            // on its way, ten spacings in, and after it has stopped
+            // during the motion, after ten spacings, and after the stop
             CHECK(std::abs(error(120)) < 0.002);
             CHECK(std::abs(error(40)) < 0.005);
             CHECK(c.walls->balance()[0].swept == relative(0.0104 * height, 1e-9));

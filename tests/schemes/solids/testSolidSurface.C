@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The unit load of the fluid within and around a ring and sphere: its flux for the incompressible velocity
-// x/r^nDims is 2 pi and 4 pi, whatever the radius
+// The unit load of the fluid in and around a ring and a sphere: its flux for the incompressible velocity
+// x/r^nDims is 2 pi and 4 pi for every radius
 #include "relative.H"
 #include "solidSurface.H"
 
@@ -51,8 +51,8 @@ struct shell
                     }
     }
 
-    // As packing leaves them: layers along the surface of radius 1, half a spacing before it and behind, those further
-    // off closer to each other; within a layer particles are as much further apart
+    // Layers as packing makes them: along the surface of radius 1, half a spacing before and behind it, with smaller
+    // distances between layers further off; within a layer the spacing is larger in the same measure
     void layers(int fluidZone)
     {
         constexpr scalar closer = 0.94;
@@ -77,7 +77,7 @@ struct shell
             }
             return;
         }
-        // the golden spiral: even to a few per cent
+        // the golden spiral is even to a few per cent
         const label n = label(std::lround(4 * M_PI * r * r * thickness / cloud.volume()));
         for (label i = 0; i < n; ++i)
         {
@@ -87,7 +87,7 @@ struct shell
         }
     }
 
-    // Of a unit pressure in the zone, by what a sphere of any radius lets through
+    // Flux of a unit pressure in the zone, over that through a sphere of any radius
     scalar flux(int zone)
     {
         const List<tensor> F(cloud.nSolid(), tensor::Identity());
@@ -116,7 +116,7 @@ struct shell
 
 TEST_CASE("what passes through the area vectors of curved surfaces, from inside and outside")
 {
-    // half a kernel about a curved surface holds more or less: without coverFactors 2 to 5 % are missing or too many
+    // half a kernel about a curved surface holds more or less: without coverFactors the error is 2 to 5 %
     for (const int nDims : {2, 3})
         for (const scalar dx : {0.1, 0.0666})
         {
@@ -128,7 +128,7 @@ TEST_CASE("what passes through the area vectors of curved surfaces, from inside 
 
 TEST_CASE("the same where layers along the surface hold fewer particles than a lattice")
 {
-    // without coverFactors 5 to 8 % are missing; 1.2 % is what linear extrapolation over a radius of 10 spacings leaves
+    // without coverFactors 5 to 8 % are missing; linear extrapolation over a radius of 10 spacings leaves 1.2 %
     for (const int nDims : {2, 3})
         for (const scalar dx : {0.1, 0.0666})
             for (const int zone : {1, 2})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A quarter of an elastic ring and of four vortices within that nothing drains: no volume passes its surface, and yet the divergence
-// of the stirred particles misses some of it in every step
+// A quarter of an elastic ring around a quarter of four vortices that no open face drains.  No volume passes its surface,
+// but the divergence of the stirred particles misses some volume in every step
 #include "caseOnDisk.H"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Area vectors that are some per cent off, on spheres, circles and where a surface ends
+// Area vectors with errors of some per cent, on spheres, circles and surfaces with ends
 #include "relative.H"
 #include "surfaceCover.H"
 
@@ -17,7 +17,7 @@ struct surfaceOf
 {
     List<vector> x, S;
 
-    // off by up to 15 %, from point to point
+    // adds a point with an area error of up to 15 %
     void add(const vector& point, const vector& area)
     {
         x.push_back(point), S.push_back((0.93 + 0.08 * std::sin(7.0 * scalar(x.size()))) * area);
@@ -35,7 +35,7 @@ struct surfaceOf
     }
 };
 
-// The golden spiral: even to a few per cent.  keep(x): of the whole sphere
+// The golden spiral, even to a few per cent.  keep(x): part of the sphere that is kept
 template <class Keep>
 surfaceOf sphere(scalar R, Keep&& keep)
 {

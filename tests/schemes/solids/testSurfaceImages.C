@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A quarter of a ring of solid full of fluid, and its images beyond two symmetry planes
+// A quarter of a solid ring filled with fluid, and its images beyond two symmetry planes
 #include "relative.H"
 #include "solidSurface.H"
 
@@ -44,7 +44,7 @@ TEST_CASE(
     neighbourList list;
     list.build(cloud, *kernel);
 
-    // slopes at the surface are exact for what is linear, with the images and without
+    // slopes at the surface are exact for linear fields, with and without images
     const List<tensor> F(cloud.nSolid(), tensor::Identity()),
         dF(cloud.nSolid(), vector(2, -1, 0).asDiagonal());
     const auto flux = [&](const List<isometry>& images) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two chambers of a plane channel, divided by a wall thinner than the kernel support, at different
-// pressures; and the flow round the free edge of a plate.
+// Two chambers of a plane channel at different pressures, divided by a wall thinner than the kernel support,
+// and the flow around the free edge of a plate.
 #include "boundary/scene.H"
 #include "caseOnDisk.H"
 
@@ -15,7 +15,7 @@ namespace
 constexpr int nx = 20, ny = 12;  // an even number of cells left and right of the wall
 constexpr scalar dx = 1e-3, length = nx * dx, height = ny * dx, pLeft = 1000;
 constexpr scalar strip = 2 * dx;
-// [m/s] what a pressure of 1 kPa over one spacing makes of fluid in a step of 1 ms
+// [m/s] velocity that a pressure of 1 kPa over one spacing gives to fluid in a step of 1 ms
 constexpr scalar fromLeak = pLeft / (1000 * dx) * 1e-3;
 
 struct divided
@@ -31,7 +31,7 @@ triSurface plateOf(const divided& d)
     const scalar x = 0.5 * length, z = dx;
     if (d.thickness == 0)
         return scene::sheet({x, d.from, -z}, {0, d.to - d.from, 0}, {0, 0, 2 * z}, 2);
-    // open where it goes on: at the cyclic sides and across the plane
+    // open where the wall continues: at the cyclic sides and across the plane
     const scalar t = 0.5 * d.thickness;
     triSurface s = scene::sheet({x - t, d.from, -z}, {0, d.to - d.from, 0}, {0, 0, 2 * z}, 2);
     s.append(scene::sheet({x + t, d.from, -z}, {0, 0, 2 * z}, {0, d.to - d.from, 0}, 2));
@@ -71,7 +71,7 @@ public:
     caseOnDisk files;
 
 private:
-    // Strips beyond both ends; the wall takes the place of the fluid in it
+    // Places strips beyond both ends; the wall replaces the fluid in it
     void place()
     {
         particleTable& t = files.particles();
@@ -120,7 +120,7 @@ scalar maxSpeed(const particleCloud& cloud)
     return u;
 }
 
-// Pairs of fluid on the two sides; zero if the wall is one
+// Number of fluid pairs across the wall; zero if no fluid sees through the wall
 label pairsAcross(fsiCase& c)
 {
     c.updateNeighbours(c.time.value(), c.time.value() + 1e-3);
@@ -152,7 +152,7 @@ const List<divided>& walls()
     return all;
 }
 
-// Vortices that fill either chamber and press on the wall between, U = curl of psi
+// Sets vortices that fill each chamber and press on the wall between them, U = curl of psi
 void stir(particleCloud& cloud, scalar speed)
 {
     for (label i = 0; i < cloud.n(); ++i)
@@ -185,7 +185,7 @@ TEST_CASE("fluid at rest at 1 kPa and 0 on the two sides of a thin wall stays at
             error =
                 std::max(error, std::abs(c.cloud.Up[i][3] - (isLeft(c.cloud.x[i]) ? pLeft : 0)));
         CHECK(pairsAcross(c) == 0);
-        // the elements of one side do not close it to the last digit
+        // the elements of one side do not close to the last digit
         CHECK(error < 2e-6 * pLeft);
         CHECK(maxSpeed(c.cloud) < 2e-8 * fromLeak);
     }

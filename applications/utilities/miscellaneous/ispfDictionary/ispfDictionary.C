@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Prints and edits dictionaries, with the options of OpenFOAM's foamDictionary.  An edit changes the text of
-// its entry alone: comments and layout of the rest stay.  The file is replaced at once, or not at all.
+// Prints and edits dictionaries, with the options of OpenFOAM's foamDictionary.  An edit changes only the text of
+// its entry: comments and layout of the rest stay.  The file is replaced as a whole or not at all.
 #include "argList.H"
 #include "dictionary.H"
 #include "dictionaryText.H"
@@ -16,7 +16,7 @@ using namespace ispf;
 namespace
 {
 
-// :solvers.p and /solvers/p are solvers.p
+// Turns :solvers.p and /solvers/p into solvers.p
 word dotted(word name)
 {
     const bool slashes = name.find('.') == word::npos;
@@ -25,8 +25,8 @@ word dotted(word name)
     return name;
 }
 
-// The dictionary that holds the entry of a dotted name, and its key there; null if there is none.  A key with dots of
-// its own comes first, a pattern that would match the dots as well last
+// The dictionary that contains the entry of a dotted name, and its key there; null if there is none.  A key that itself
+// has dots comes first, a pattern that would match the dots comes last
 const dictionary* holderOf(const dictionary& d, const word& name, word& key)
 {
     const List<word> exact = d.allKeys();
@@ -49,7 +49,7 @@ const dictionary* holderOf(const dictionary& d, const word& name, word& key)
 
 const word header = "FoamFile";
 
-// Likewise, of the file: its header counts as a dictionary
+// The same for a file: its header counts as a dictionary
 const dictionary* holderInFile(const dictionary& d, const word& name, word& key)
 {
     if (const dictionary* holder = holderOf(d, name, key)) return holder;
@@ -76,7 +76,7 @@ List<word> wordsOf(const List<token>& tokens)
     return words;
 }
 
-// Numbers by their value: 1.0 is 1
+// True if the values are equal; numbers are compared by value: 1.0 is 1
 bool alike(const List<word>& a, const List<word>& b)
 {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const word& v, const word& w) {
@@ -85,7 +85,7 @@ bool alike(const List<word>& a, const List<word>& b)
     });
 }
 
-// What a has otherwise than b
+// Entries of a that b lacks or has with another value
 word differences(const dictionary& a, const dictionary& b)
 {
     word text;
@@ -106,7 +106,7 @@ word differences(const dictionary& a, const dictionary& b)
     return text;
 }
 
-// The same of what stands in the files, macros and directives as they are
+// The same for the text of files, with macros and directives as they are written
 word textDifferences(const dictionaryText& a, const dictionaryText& b, const word& scope = "")
 {
     word text;
@@ -145,7 +145,7 @@ word differences(const argList& args, const word& path, const word& other)
     return text + textDifferences(a, b);
 }
 
-// Does the file, read as programs do, hold the value? A macro, a file or a condition may stand in between.
+// True if the file, read as programs do, has the value; a macro, a file or a condition may change it
 bool holds(const dictionaryText& text, const word& path, const word& name, const word& value)
 {
     const bool toDict = !value.empty() && value[0] == '{';
@@ -153,7 +153,7 @@ bool holds(const dictionaryText& text, const word& path, const word& name, const
     const dictionary d = dictionary::fromPart(text.text(), path);
     word key;
     const dictionary* holder = holderInFile(d, name, key);
-    if (toDict)  // what an included file brings may be merged into it
+    if (toDict)  // an included file may add entries to it
     {
         const dictionary wanted = dictionary::fromPart("a " + value, path).subDict("a");
         if (name == header) return differences(wanted, d.header()).empty();
@@ -163,7 +163,7 @@ bool holds(const dictionaryText& text, const word& path, const word& name, const
            wordsOf(holder->tokenList(key)) == wordsOf(tokenize(value, path));
 }
 
-// The part of a dotted name that is a value, where a dictionary is wanted
+// The part of a dotted name that is a value, although a dictionary is needed there
 word valueAbove(const dictionaryText& text, const word& name)
 {
     for (size_t dot = name.find('.'); dot != word::npos; dot = name.find('.', dot + 1))
@@ -172,7 +172,7 @@ word valueAbove(const dictionaryText& text, const word& name)
     return "";
 }
 
-// The part of a dotted name that is no dictionary of its own, but given its entries by a pattern
+// The part of a dotted name that is not a dictionary itself but gets its entries from a pattern
 word patternAbove(const dictionaryText& text, const dictionary& d, const word& name,
                   const word& scope = "")
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Function objects on the written times of a case, in the manner of OpenFOAM's postProcess: those of `functions` in
-// system/controlDict, of the dictionary -dict, or -func by name.  Rows equal those that the run has written, or
-// would have.
+// Runs function objects on the written times of a case, like OpenFOAM's postProcess: those of `functions` in
+// system/controlDict, of the dictionary -dict, or of -func by name.  The rows equal those that the run has written
+// or would have written.
 #include "argList.H"
 #include "fileNames.H"
 #include "functionObjectList.H"
@@ -25,7 +25,7 @@ List<word> namesIn(word text)
     return names;
 }
 
-// From `all`, else system/<name>: its entries, or a sub-dictionary of that name
+// The function from `all`, else from system/<name>: the entries of the file, or its sub-dictionary of that name
 dictionary functionOf(const Time& time, const dictionary& all, const word& name)
 {
     if (all.isDict(name)) return all.subDict(name);

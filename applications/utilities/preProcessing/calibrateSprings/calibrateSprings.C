@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How stiff the links of constant/structureProperties are: tension of slabs and cubes along several
+// Measures the stiffness of the links of constant/structureProperties: tension of slabs and cubes along several
 // directions, on a lattice and on disordered particles, and of the case's own body.
 //
-// Each body, free and incompressible, carries a uniaxial stress (uniformStressTest).  Mean stress s and
-// median strain e of its middle give E = s/e (plane strain tension modulus, 4 G, in 2D), printed over
-// the modulus that the links name.  Where E or G asks for a modulus every body is judged, 5 % allowed; with
-// k_e nothing is asked: the printed modulus is the one to quote.  -response: springResponse.H
+// Each body is free and incompressible and carries a uniaxial stress (uniformStressTest).  Mean stress s and
+// median strain e of its middle give E = s/e (in 2D the modulus of plane strain tension, 4 G).  The output is E over
+// the modulus of the links.  With an entry E or G every body is judged, 5 % allowed.  With k_e none is: then
+// the printed modulus is the one to quote.  For -response see springResponse.H
 #include "argList.H"
 #include "cloudIO.H"
 #include "fileNames.H"
@@ -24,7 +24,7 @@ namespace
 
 using namespace ispf;
 
-constexpr scalar least = 0.95, most = 1.05;  // what counts as calibrated
+constexpr scalar least = 0.95, most = 1.05;  // range that counts as calibrated
 
 struct direction
 {
@@ -56,7 +56,7 @@ struct sample
     structureReference body;
     List<direction> directions;
     scalar margin = 0;           // particles nearer to the edges of the box are not measured, in dx
-    bool alsoThickness = false;  // the margin also holds in the last direction
+    bool alsoThickness = false;  // the margin also applies in the last direction
 };
 
 List<char> measuredPart(const sample& s)
@@ -87,13 +87,13 @@ List<sample> blocks(int nDims, const List<int>& layers, bool disordered)
         else samples.push_back({name, make(40, n, 0), {{"along", vector::UnitX()}}, 6, false});
     }
     if (nDims == 3)
-        // in a smaller one the core measures how unevenly the end faces are loaded along their edges
+        // in a smaller cube the core would show the uneven load of the end faces along their edges
         samples.push_back({kind + "cube, 16 layers", make(16, 16, 16), crystal(), 5, true});
     else samples.push_back({kind + "square, 24 layers", make(24, 24, 0), inPlane(), 5, true});
     return samples;
 }
 
-// The solid of <case>/0/particles.hdf at rest, cut free from walls and symmetry planes
+// The solid of <case>/0/particles.hdf at rest, without walls and symmetry planes
 structureReference caseBody(const word& file)
 {
     const particleTable table = readParticles(file);

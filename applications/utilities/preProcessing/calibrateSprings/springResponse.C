@@ -63,7 +63,7 @@ struct body
         inside;  // one particle of each layer, in the middle; of an endless lattice one alone
 };
 
-// Wide enough that the particles measured have the links, and where these are fitted the stiffness, of an endless one
+// A body so wide that the measured particles have the links, and fitted stiffnesses, of an endless one
 body bodyOf(const request& r, label layers, const dictionary& properties)
 {
     const scalar reach =
@@ -116,7 +116,7 @@ void measure(const request& r, label layers, const structureModel& model, const 
                 return nominalStress(model, at(lambda), inside);
             };
             const word row = std::to_string(layers) + "," + name + "," + named(direction) + ",";
-            // of the amount of shear, which is about twice the strain
+            // the slope over the amount of shear, which is about twice the strain
             const scalar amount = (name == "shear" ? 4 : 2) * small;
             const auto slope = [&](scalar up, scalar down) { return (up - down) / amount; };
             const scalar modulus = slope(stress(1 + small), stress(1 - small)),

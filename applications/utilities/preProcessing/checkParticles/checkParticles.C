@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Are the particles of a case fit to run with?  Counts, spacing, neighbours, kernel sums, layers and
+// Checks whether the particles of a case are fit for a run: counts, spacing, neighbours, kernel sums, layers and
 // links of solids, memory and time per step.  Status 1 if a check fails; warnings do not count.
 #include "argList.H"
 #include "checks.H"
@@ -12,7 +12,7 @@ using namespace ispf;
 namespace
 {
 
-// Words that nobody reads; function objects are the solver's matter
+// Refuses entries that nobody reads; those of function objects are left to the solver
 void checkControls(const dictionary& control)
 {
     if (const dictionary* functions = control.findDict("functions")) functions->markAllRead();
@@ -35,7 +35,7 @@ int run(const argList& args)
         readCloud(time, cloud);
         checkPositions(cloud, time.value(), found);
     }
-    if (found.nFailed() > 0) return found.close();  // the rest could not be relied upon
+    if (found.nFailed() > 0) return found.close();  // the other checks would not be reliable
 
     fsiCase c(time);
     c.updateNeighbours(time.value(), time.value() + time.deltaT());

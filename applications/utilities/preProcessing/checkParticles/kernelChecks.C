@@ -11,11 +11,11 @@ namespace ispf
 namespace
 {
 
-constexpr scalar band = 0.02;    // of kernel sums, that a fresh packing keeps
-constexpr scalar uneven = 0.08;  // beyond, the operators lose their consistency
+constexpr scalar band = 0.02;    // of kernel sums, in a fresh packing
+constexpr scalar uneven = 0.08;  // beyond this the operators are no longer consistent
 
-// Further from every open side than the support reaches; the last half spacing is the surface
-// particle's own
+// Marks particles farther from every open side than the support.  The last half spacing belongs to the
+// surface particle
 List<char> interiorParticles(const particleCloud& cloud, const List<vector>& x, scalar support)
 {
     const particleSurface surface(x, cloud.n(), cloud.dx, cloud.nDims);

@@ -40,7 +40,7 @@ struct pairFound
     scalar distance = 1e300;
 };
 
-// Ghosts count as partners
+// The closest pair with an owned particle; ghosts count as partners
 pairFound closestPair(const List<vector>& x, label n, scalar dx)
 {
     const cellList cells(x, dx);
@@ -59,7 +59,7 @@ pairFound closestPair(const List<vector>& x, label n, scalar dx)
     return closest;
 }
 
-// From p uphill to where the nearest particles are furthest
+// Moves p uphill to a place where the nearest particles are farthest
 scalar climb(const cellList& cells, const List<vector>& x, vector& p, scalar dx)
 {
     const auto nearest = [&](const vector& q) {
@@ -70,7 +70,8 @@ scalar climb(const cellList& cells, const List<vector>& x, vector& p, scalar dx)
     scalar radius = nearest(p);
     for (scalar step = 0.2 * dx; step > 0.003 * dx;)
     {
-        vector away = vector::Zero();  // from all that are about equally near: else ridges stop it
+        // from all that are about equally near: otherwise ridges stop it
+        vector away = vector::Zero();
         cells.near(p, radius + step, [&](label j, scalar d2) {
             away += (p - x[j]) / std::max(std::sqrt(d2), 1e-9 * dx);
         });
@@ -82,8 +83,8 @@ scalar climb(const cellList& cells, const List<vector>& x, vector& p, scalar dx)
     return radius;
 }
 
-// Radius of the largest ball without a particle.  Fluid fills its place, so every side of it counts;
-// of solids only what is far from their open sides
+// Radius of the largest ball without a particle.  Every side of fluid counts, because fluid fills its room;
+// of solids only places far from their open sides count
 scalar largestGap(const fsiCase& c, const List<vector>& x, vector& where)
 {
     const particleCloud& cloud = c.cloud;
@@ -113,7 +114,7 @@ scalar largestGap(const fsiCase& c, const List<vector>& x, vector& where)
     return gap;
 }
 
-// Fluid within and behind what a solid carries along
+// Checks for fluid in and behind a surface that moves with a solid
 void checkSurface(const fsiCase& c, const word& name, label fluidZone, findings& found)
 {
     trackedSurface surface(name, c);

@@ -11,7 +11,7 @@ namespace ispf
 namespace
 {
 
-constexpr scalar many = 12;  // layers are counted to here
+constexpr scalar many = 12;  // layers are counted up to this number
 
 // Solid particles at rest, then their images
 List<vector> solidAtRest(const fsiCase& c)

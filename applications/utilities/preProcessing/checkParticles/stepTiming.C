@@ -12,7 +12,7 @@ namespace ispf
 namespace
 {
 
-constexpr scalar longEnough = 20;  // [s] no further step is begun after so long
+constexpr scalar longEnough = 20;  // [s] no further step begins after this time
 constexpr label fewest = 3;        // steps, however long they take
 
 scalar peakMemory()  // [MB]
@@ -22,14 +22,14 @@ scalar peakMemory()  // [MB]
     return scalar(usage.ru_maxrss) / 1024;
 }
 
-constexpr int nLooks = 200;  // times at which the limits of a run are looked at
+constexpr int nLooks = 200;  // times at which the limits of a run are evaluated
 
 struct stepCost
 {
     scalar seconds, cpuSeconds;  // by the clock; of all threads
 };
 
-// The solver takes no longer step than this unless it may adjust it
+// Without adjustTimeStep the solver refuses a step longer than the limit
 void checkLimit(const Time& time, const couplingScheme::stepLimit& limit, findings& found)
 {
     if (!time.adjustTimeStep() && time.deltaT() > limit.dt * (1 + 1e-9))
@@ -72,7 +72,7 @@ struct outlook
     word rule;  // of the least
 };
 
-// Walls and faces tell how fast the fluid will be; the peak of a profile over its mean is left aside
+// Walls and faces give the coming speed of the fluid; the peak of a profile over its mean is not included
 outlook lookAhead(const fsiCase& c, const couplingScheme& coupling)
 {
     const Time& time = c.time;
@@ -114,7 +114,7 @@ void timeSteps(fsiCase& c, label most, findings& found)
         return found.fail(word("The case does not step: ") + error.what());
     }
     if (costs.empty()) return found.note("None: endTime is reached");
-    // the first ones pay for factorisations and starts; the others are what a run is made of
+    // the first steps pay for factorisations and starts; the later ones are typical of a run
     valueRange usual, cpu;
     for (size_t k = costs.size() / 2; k < costs.size(); ++k)
         usual.add(costs[k].seconds), cpu.add(costs[k].cpuSeconds);

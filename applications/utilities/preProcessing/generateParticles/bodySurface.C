@@ -116,7 +116,7 @@ private:
         return measure / std::pow(dx_, settings_.nDims);
     }
 
-    // What other units would give
+    // The size in other units, for messages
     word otherUnits(scalar n) const
     {
         word text;
@@ -140,7 +140,7 @@ private:
             name_ + " has room for " + str(n, 3) + " particles of spacing dx = " + str(dx_) + " m";
         if (n < fewestParticles)
             throw fatalError(has +
-                             ": it could not hold a particle worth the name. Are dx and the unit "
+                             ": it could not hold a particle. Are dx and the unit "
                              "of the file right?" +
                              otherUnits(n));
         line("surface", "closed, normals outwards, area " + str(s_.area()) + " m2, " +

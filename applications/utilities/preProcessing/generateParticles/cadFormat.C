@@ -40,7 +40,7 @@ size_t firstLetter(const word& text)
     return at == word::npos ? text.size() : at;
 }
 
-// The last line that is not blank, and whether a blank one stands before it
+// The last line that is not blank, and whether a blank line is before it
 std::pair<word, bool> lastLine(const word& text)
 {
     const size_t end = text.find_last_not_of(" \r\n\t");
@@ -59,7 +59,7 @@ bool isBinarySTL(const word& text)
     return text.size() == 84 + 50 * size_t(n);
 }
 
-// The format by its first bytes; "" if they tell nothing
+// The format by its first bytes; "" if they do not show it
 word contentOf(const word& text)
 {
     const word start = text.substr(firstLetter(text), 200);
@@ -100,7 +100,7 @@ word kind(const word& format)
 void checkContent(const word& path, const word& format, const word& text)
 {
     const word found = contentOf(text);
-    // a script may begin with anything; the reader of STL says itself what is wrong
+    // a script may begin with anything; the reader of STL itself reports errors
     if (found == format || (found.empty() && (format == "gmsh-script" || format == "STL"))) return;
     if (!found.empty())
         throw fatalError("The file " + path + " is named as " + kind(format) + " but holds " +
@@ -114,8 +114,8 @@ void checkContent(const word& path, const word& format, const word& text)
                      marks.at(format));
 }
 
-// OpenCASCADE and gmsh take what there is of a file, or wait for ever for the rest; the formats that say
-// where they end are looked at
+// fatalError if the file is cut off.  OpenCASCADE and gmsh would take the part that is there, or wait for ever for the
+// rest.  Checks formats with a mark at their end
 void checkWhole(const word& path, const word& format, const word& text)
 {
     const auto [last, afterBlank] = lastLine(text);
@@ -125,7 +125,7 @@ void checkWhole(const word& path, const word& format, const word& text)
     if (format == "STEP" && last.find("END-ISO-10303-21;") == word::npos)
         should = "be END-ISO-10303-21;";
     if (format == "gmsh-mesh" && last.rfind("$End", 0) != 0) should = "begin with $End";
-    // the root shape: orientation, number and location, after the table's last entry
+    // the root shape after the table's last entry: orientation, number and location
     const bool root = !last.empty() && (last[0] == '+' || last[0] == '-') &&
                       last.find_first_not_of("0123456789 ", 1) == word::npos;
     if (format == "BREP" && !(root && afterBlank))
@@ -134,7 +134,7 @@ void checkWhole(const word& path, const word& format, const word& text)
         throw fatalError("The file " + path + " is cut off: its last line should " + should);
 }
 
-// One spelling for what IGES and STEP, and programs that write them, call by several
+// One name for a unit that IGES, STEP and programs call by several names
 word commonName(const word& unit)
 {
     static const std::map<word, word> names = {
@@ -146,7 +146,7 @@ word commonName(const word& unit)
     return known == names.end() ? unit : known->second;
 }
 
-// Parameters 14 and 15 of the global section (IGES 5.3, 2.2.4.3): a flag, or 3 and a name
+// Unit from parameters 14 and 15 of the global section (IGES 5.3, 2.2.4.3): a flag, or 3 and a name
 word unitOfIGES(const word& text)
 {
     static const std::array<const char*, 12> flags = {"",  "inch", "mm",  "",   "ft", "mile",
@@ -182,7 +182,7 @@ word unitOfIGES(const word& text)
     return number && std::stoul(flag) < flags.size() ? flags[std::stoul(flag)] : "";
 }
 
-// Of what stands between = and ; for a LENGTH_UNIT (ISO 10303-41), without blanks
+// Unit from the text between = and ; of a LENGTH_UNIT (ISO 10303-41), without blanks
 word unitOfEntity(const word& entity)
 {
     static const std::map<word, word> prefixes = {{"$", "m"},        {"", "m"},
@@ -200,7 +200,7 @@ word unitOfEntity(const word& entity)
     return known != prefixes.end() ? known->second : lower(prefix) + "metre";
 }
 
-// Those that a context assigns; not the mm by which an inch is defined
+// The units that a context assigns; not the mm that defines an inch
 word unitOfSTEP(const word& text)
 {
     std::map<word, word> units;  // by instance

@@ -45,7 +45,7 @@ scalar unitInMetres(const word& unit)
     return at->second;
 }
 
-// What the file's numbers are in
+// The unit of the file's numbers
 word unitOf(const word& path, const cadFormat& format, const word& asked)
 {
     if (!asked.empty()) unitInMetres(asked);
@@ -72,10 +72,10 @@ word unitOf(const word& path, const cadFormat& format, const word& asked)
     if (!asked.empty()) return asked;
     if (format.name != "BREP")
         throw fatalError(
-            "A file like this does not say what its numbers mean: give 'unit mm;' or "
-            "whatever it is beside the file " +
+            "Files of this format do not state their unit: give 'unit mm;' or "
+            "another unit beside the file " +
             path);
-    warning("A .brep file does not say what its numbers mean: " + path +
+    warning("A .brep file does not state its unit: " + path +
             " is read in mm. If that is so, say 'unit mm;'");
     return "mm";
 }
@@ -97,7 +97,7 @@ cadModel readCad(const word& path, const cadSettings& settings)
 {
     const cadFormat format = recognisedFormat(path);
     const word unitName = unitOf(path, format, settings.unit);
-    // gmsh converts to mm what declares its unit
+    // gmsh converts files that declare their unit to mm
     const scalar unit = unitInMetres(format.declaredUnit.empty() ? unitName : "mm");
     cadModel model = format.name == "STL"
                          ? fromSTL(path, unit)

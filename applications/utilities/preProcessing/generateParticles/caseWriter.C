@@ -14,7 +14,7 @@ namespace ispf
 namespace
 {
 
-// In two dimensions surfaces are prisms of any height; a slice one dx high is enough
+// In two dimensions surfaces are prisms of any height: writes a slice of the height dx
 triSurface forDisk(const triSurface& surface, const zoneGeometry& geometry)
 {
     if (geometry.nDims() == 3) return surface;
@@ -120,7 +120,7 @@ void writeCase(const word& caseFolder, const zoneGeometry& geometry, const place
           std::pair(&sites, "/constant/openSites.hdf"), std::pair(&particles, "/0/particles.hdf")})
         if (table->size() > 0) files.push_back(particleText(*table, caseFolder + file));
     writeTexts(files);
-    // What an earlier run left would be taken for valid
+    // an earlier run's files would be taken for valid
     if (walls.size() == 0) std::filesystem::remove(caseFolder + "/constant/wallParticles.hdf");
     if (sites.size() == 0) std::filesystem::remove(caseFolder + "/constant/openSites.hdf");
 }

@@ -9,7 +9,7 @@ namespace ispf
 namespace
 {
 
-// Colours lose a little on their way through linear light and percentages
+// Colours change a little by the conversion to linear light and percentages
 constexpr int colourTolerance = 6;
 
 bool has(const List<word>& list, const word& name)

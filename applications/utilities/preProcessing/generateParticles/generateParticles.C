@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fills a geometry with particles: system/particleDict and constant/boundary in, 0/particles.hdf,
-// wall particles, sites of open faces and surfaces out.
+// Fills a geometry with particles.  Reads system/particleDict and constant/boundary; writes 0/particles.hdf,
+// wall particles, sites of open faces and surfaces.
 #include "argList.H"
 #include "caseWriter.H"
 #include "fileNames.H"
@@ -11,7 +11,7 @@
 
 using namespace ispf;
 
-// A run would go on from the latest of them with the particles of before
+// Warns of later times: a run would continue from the latest of them, with the old particles
 void warnOfOldTimes(const word& folder)
 {
     word old;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// gmsh runs in a child process and hands its result over as bytes
+// gmsh runs in a child process and returns its result as bytes
 #include "gmshReader.H"
 
 #include "guardedProcess.H"
@@ -16,7 +16,7 @@ namespace ispf
 namespace
 {
 
-// OpenCASCADE hands colours over in linear light; files and CAD programs show sRGB
+// OpenCASCADE gives colours in linear light; files and CAD programs use sRGB
 int toSRGB(int linear)
 {
     const scalar c = linear / 255.0;
@@ -34,7 +34,7 @@ void check(bool ok, const word& what)
     throw std::runtime_error(what + (reason.empty() ? word() : ": " + reason));
 }
 
-// A script goes on after a line that it cannot read or a file that is not there
+// gmsh continues a script after a line that it cannot read or a file that does not exist
 void checkScript(const word& path)
 {
     std::string error;
@@ -43,8 +43,8 @@ void checkScript(const word& path)
         throw std::runtime_error("gmsh stumbles over it: " + error);
 }
 
-// Seconds, on a slow machine, where none are given: OpenCASCADE reads some 100 kB a second, gmsh makes
-// some 1000 triangles; what takes ten times as long will not end
+// Default time limits [s], for a slow machine: OpenCASCADE reads some 100 kB per second, gmsh makes
+// some 1000 triangles per second; a task that takes ten times as long will not end
 scalar readingTime(const word& path, const gmshSettings& settings)
 {
     return settings.timeLimit > 0 ? settings.timeLimit
@@ -54,7 +54,7 @@ scalar readingTime(const word& path, const gmshSettings& settings)
 scalar meshingTime(const gmshSettings& settings)
 {
     if (settings.timeLimit > 0) return settings.timeLimit;
-    scalar area = 0;  // in the file's units
+    scalar area = 0;  // in the units of the file
     gmsh::vectorpair surfaces;
     gmsh::model::getEntities(surfaces, 2);
     for (const auto& [dim, tag] : surfaces)
@@ -69,7 +69,7 @@ scalar meshingTime(const gmshSettings& settings)
 void openFile(const word& path, const gmshSettings& settings, const grantTime& grant)
 {
     const scalar meshSize = settings.meshSize;
-    gmsh::initialize(0, nullptr, false);  // whatever options its user has set elsewhere
+    gmsh::initialize(0, nullptr, false);  // ignores options that the user has set elsewhere
     gmsh::option::setNumber("General.Verbosity", 2);
     gmsh::option::setNumber("General.AbortOnError", 1);
     gmsh::option::setNumber("Mesh.ElementOrder", 1);
@@ -152,7 +152,7 @@ void meshInChild(const word& path, const gmshSettings& settings, const grantTime
     {
         int r = 0, g = 0, b = 0, a = 0;
         gmsh::model::getColor(dim, tag, r, g, b, a);
-        // gmsh answers a transparent blue for entities without a colour of their own
+        // for entities without a colour gmsh returns a transparent blue
         out.put(tag), out.put(a > 0);
         for (const int c : {r, g, b}) out.put(toSRGB(c));
         out.putWords(groupsOf(2, tag));

@@ -9,7 +9,7 @@ namespace ispf
 namespace
 {
 
-// of position, variables x y z [m]; and of dx
+// A formula of the position x y z [m] and of dx
 expression ofPosition(const word& text, scalar dx, const fileLocation& where)
 {
     return {text, {"x", "y", "z"}, {{"dx", dx}}, where};
@@ -40,7 +40,7 @@ initialFields::initialFields(const dictionary& zone, scalar dx, int nDims, bool 
     if (!solid && restsElsewhere())
         zone.fail("rest", "Only what is solid has a state of rest: phase solid or clamped");
     if (!zone.found("p")) return;
-    // a number may have a unit, a formula is in SI
+    // a number may have a unit; a formula is in SI
     const List<word> tokens = zone.tokens("p");
     scalar number;
     const bool hasUnit = tokens.size() > 1 && (tokens[0] == "[" || readNumber(tokens[0], number));

@@ -24,7 +24,7 @@ zoneInfo readZone(const word& name, const dictionary& dict)
     return {name, phaseType::solid, phase == "clamped"};
 }
 
-// Names become words of lists and names of files
+// A name is used as a word in lists and as a name of files
 void checkName(const dictionary& dict, const word& name)
 {
     const auto fine = [](unsigned char c) { return std::isalnum(c) || word("_-.").find(c) < 3; };
@@ -32,7 +32,7 @@ void checkName(const dictionary& dict, const word& name)
         dict.fail(name, "'" + name + "' cannot be a name here: use letters, digits, _ - and .");
 }
 
-// "6 faces with the colours (255 0 0) (0 0 255) and the groups inlet"
+// Describes the faces: "6 faces with the colours (255 0 0) (0 0 255) and the groups inlet"
 word facesOf(const cadModel& model)
 {
     List<word> seen;
@@ -146,7 +146,7 @@ void particleDict::readPatches()
     }
 }
 
-// A face cannot belong to two patches
+// fatalError if a face belongs to two patches
 void particleDict::checkUnnamed(const word& earlier, const word& name, const word& what,
                                 const vector& at) const
 {
@@ -157,7 +157,7 @@ void particleDict::checkUnnamed(const word& earlier, const word& name, const wor
                                                 "): name it in one of them alone");
 }
 
-// Writes the patch asked for into each face's surface
+// Writes the selected patch into the surface of each face
 void particleDict::namePatches(cadModel& model)
 {
     for (const auto& [name, selector] : selectors_)
@@ -171,7 +171,7 @@ void particleDict::namePatches(cadModel& model)
             }
 }
 
-// The triangles of a shape have no face, colour or group: only boxes name them
+// The triangles of a shape have no face, colour or group: only boxes select them
 void particleDict::namePatches(triSurface& shape)
 {
     for (const auto& [name, selector] : selectors_)
@@ -198,7 +198,7 @@ void particleDict::checkPatchesFound() const
                 name, "No face has " + selector.describe() + "; " + join(where, ", "));
 }
 
-// Faces in the plane of a flat patch belong to it without being named
+// Faces in the plane of a flat patch belong to it without a selector
 void particleDict::nameByPlane(triSurface& surface) const
 {
     for (const cyclicPlane& flat : flatPatches_)
@@ -212,7 +212,7 @@ void particleDict::nameByPlane(triSurface& surface) const
         }
 }
 
-// A body per volume of the file: those that touch have no closed surface in common
+// Makes a body per volume of the file: volumes that touch have no common closed surface
 List<body> particleDict::cadBodies(const word& zone, const dictionary& dict)
 {
     const cadModel& cad = model(dict);
@@ -231,7 +231,7 @@ List<body> particleDict::cadBodies(const word& zone, const dictionary& dict)
         return !selector.any() || selector.matches(v) || selector.holds(bounds) ||
                ofFaces(v, [&](const cadFace& f) { return selector.marks(f); });
     };
-    // a box names what lies in it; only where nothing does, what has a face in it: its neighbours have, too
+    // a box selects the volumes inside it; only if there are none, those with a face in it (neighbours have one too)
     const auto touched = [&](const cadVolume& v) {
         return ofFaces(v, [&](const cadFace& f) { return selector.matches(f); });
     };
@@ -248,14 +248,14 @@ List<body> particleDict::cadBodies(const word& zone, const dictionary& dict)
     if (faces.empty())
         dict.fail("file", "No face of " + cad.path + " has " + selector.describe() + " for zone " +
                               zone + "; the file has " + facesOf(cad));
-    // facets alone: bodies that touch are told by their surfaces
+    // facets without volumes: bodies that touch are separated by their surfaces
     const body all = cadBody(zone, dict, cad, faces, 0);
     for (triSurface& part : separateTouching(all.surface, 1e-3 * dx))
         bodies.push_back({all.zone, std::move(part), 0});
     return bodies;
 }
 
-// Two dimensions are the plane z = 0
+// Cuts the surface for two dimensions, at half its height
 void particleDict::cutHalfWay(const word& file, triSurface& s) const
 {
     const boundBox box = s.bounds();
@@ -329,8 +329,8 @@ void particleDict::addZone(const word& name, List<body>& bodies)
     initial_.emplace_back(dict, dx, nDims, zone.phase == phaseType::solid);
     if (initial_.back().restsElsewhere() && clamped_.count(name))
         dict.fail("rest", "A wall of constant/boundary clamps zone " + name +
-                              ": what it clamps must rest where it is placed. Make the part that "
-                              "is held a zone of phase clamped, with the same formulas");
+                              ": clamped particles must rest where they are placed. Make the "
+                              "clamped part a zone of phase clamped, with the same formulas");
 }
 
 bool particleDict::mustFit(const List<body>& bodies) const
@@ -352,7 +352,7 @@ zoneGeometry particleDict::geometry()
     const word word_ = dict_.chooseOrDefault("placement", {"lattice", "bodyFitted"},
                                              mustFit(bodies) ? "bodyFitted" : "lattice");
     bodyFitted = word_ == "bodyFitted";
-    for (const word& key : dict_.keys())  // what an included file holds for other programs
+    for (const word& key : dict_.keys())  // an included file may have entries for others
         if (dict_.where(key).file != dict_.path()) dict_.tokens(key);
     dict_.checkAllRead();
     return zoneGeometry(zones_, patches_, std::move(bodies), planes_, defaultPatch_, dx, nDims);

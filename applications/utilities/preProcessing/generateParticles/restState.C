@@ -11,7 +11,7 @@ namespace
 {
 
 constexpr scalar largestGrowth =
-    0.02;  // of a particle's volume from rest to start: the solid is incompressible
+    0.02;  // change of a particle's volume from rest to start: the solid is incompressible
 constexpr scalar planeSlip = 1e-3;  // [dx]
 
 word text(const vector& x)
@@ -19,7 +19,7 @@ word text(const vector& x)
     return "(" + str(x[0], 4) + " " + str(x[1], 4) + " " + str(x[2], 4) + ")";
 }
 
-// By central differences
+// Volume ratio of the map, by central differences
 scalar volumeRatio(const initialFields& zone, const vector& x, scalar dx, int nDims)
 {
     const scalar step = 1e-3 * dx;
@@ -42,7 +42,7 @@ void check(const initialFields& zone, const word& name, const vector& x,
                              " times as large as placed, but the solid is incompressible. Take "
                              "formulas that keep volumes, their Jacobian is 1",
                          zone.whereRest());
-    const scalar reach = 3 * geometry.dx();  // images further away are neighbours of none
+    const scalar reach = 3 * geometry.dx();  // images further away are not neighbours
     for (const halfSpace& plane : geometry.symmetryPlanes())
     {
         if (std::abs(plane.distance(x)) > reach) continue;

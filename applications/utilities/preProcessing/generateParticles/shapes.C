@@ -18,9 +18,9 @@ word shapeOf(const dictionary& dict)
     return dict.choose("shape", {"box", "sphere", "ellipsoid", "cylinder", "annulus"});
 }
 
-// Radii beyond these, in dx, are mistakes of the unit
+// A smaller or larger radius, in dx, comes from a wrong unit
 constexpr scalar smallest = 0.1;
-// Coordinates beyond this, in dx, are as well
+// So does a larger coordinate, in dx
 constexpr scalar farthest = 1e7;
 constexpr scalar largest(int nDims)
 {
@@ -53,7 +53,7 @@ std::pair<scalar, scalar> ringOf(const dictionary& dict, scalar dx, int nDims)
     return {inner, outer};
 }
 
-// A point within what numbers resolve beside dx
+// A point within the range that numbers resolve in comparison with dx
 vector placeOf(const dictionary& dict, const word& key, scalar dx, int nDims)
 {
     const vector x = dict.get<vector>(key, dims::length);
@@ -83,7 +83,7 @@ std::pair<vector, vector> endsOf(const dictionary& dict, scalar dx)
     return {p1, p2};
 }
 
-// Segments of a circle so that the sag stays below 1e-3 dx; a multiple of 4 keeps symmetry planes
+// Number of segments of a circle with a sag below 1e-3 dx; a multiple of 4 keeps symmetry planes
 label segments(scalar radius, scalar dx)
 {
     const scalar angle = std::acos(std::max(0.0, 1 - 1e-3 * dx / radius));

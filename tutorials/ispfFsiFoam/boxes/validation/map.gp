@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Cells of Re_c by CFL, a panel per scene and coupling.  Variables of validation/study: common, out, title0.., word0.., colour0.., words
+# Cells of Re_c by CFL, one panel per scene and coupling.  Variables, set by validation/study: common, out, title0..,
+# word0.., colour0.., words
 width = 1300; height = 1050
 load common
 data = 'comparison/map.dat'

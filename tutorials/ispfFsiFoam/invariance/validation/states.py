@@ -34,7 +34,7 @@ class Transformation:
 
 
 def times(case):
-    """Of written states, in their order, without the start"""
+    """Times of the written states, in their order, without the start"""
     return sorted((t for t in os.listdir(case) if re.fullmatch(r"[\d.eE+-]+", t) and float(t) > 0
                    and os.path.exists(f"{case}/{t}/positions")), key=float)
 

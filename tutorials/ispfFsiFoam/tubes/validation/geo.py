@@ -10,7 +10,7 @@ OPERATORS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mu
 
 
 def value(node, known):
-    """Of sums, products and quotients of numbers and known names; KeyError of anything else"""
+    """Value of sums, products and quotients of numbers and known names; KeyError of anything else"""
     if isinstance(node, ast.BinOp):
         return OPERATORS[type(node.op)](value(node.left, known), value(node.right, known))
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):

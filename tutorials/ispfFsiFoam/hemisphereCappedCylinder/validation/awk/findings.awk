@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What the paper reports and whether this run shows it; and what the run must keep to be trusted.
-# Everything said of a dead centre is judged at one instant of its rest, deadCentreInstant.
+# Findings of the paper, and whether this run shows them; conditions that a trustworthy run must keep.
+# All findings at a dead centre are judged at one instant of its rest, deadCentreInstant.
 # Input: quantities.csv
 BEGIN { FS = ","; nParts = split("+0.00 +0.20 +0.57 +1.15", part, " ") }
 { q[$1] = $2 }
@@ -21,8 +21,8 @@ function verdict(yes, detail) { say(yes ? "yes" : "no", detail) }
 function two(v,    s) { s = sprintf("%.2f", v); return s == "-0.00" ? "0.00" : s }
 function percent(v,    s) { s = sprintf("%+.3f %%", v); return s == "-0.000 %" ? "+0.000 %" : s }
 function judged(centre, name) { return centre q["deadCentreInstant"] "." name }
-# "6.50 mm (stop +0.00 s: 1.00, ...)": the judged value and those of the other instants of the rest, a star
-# where they are as near to the wanted one as is asked
+# "6.50 mm (stop +0.00 s: 1.00, ...)": the judged value and those of the other instants of the rest, with a star
+# if they are as near to the wanted value as required
 function dwell(centre, name, unit, wanted, within,    k, key, list) {
     for (k = 1; k <= nParts; ++k) {
         key = centre part[k] "." name
@@ -33,7 +33,7 @@ function dwell(centre, name, unit, wanted, within,    k, key, list) {
     return two(q[judged(centre, name)]) " " unit (list == "" ? "" : list ")")
 }
 function near(centre, name, wanted, within) { return abs(q[judged(centre, name)] - wanted) <= within }
-# What is controlled proves nothing: judged is what the scheme keeps by itself
+# A controlled value proves nothing: the value without control is judged
 function kept(name, within, injected, note) {
     verdict(abs(q["own." name]) <= within, (injected == 0 ? percent(q[name]) ", nothing controlled" : \
         "left to itself " percent(q["own." name]) "; with control " percent(q[name]) ", which has put in " percent(injected)) note)

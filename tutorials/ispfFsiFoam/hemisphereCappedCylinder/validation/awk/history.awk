@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What the histories say; "nan" where a value is no number.  Variables: period, top (time of the full stroke within it) [s];
-# cycles, as many as were asked for, 2 by default; stroke [m3]; rest, the cavity's volume, and wall, the solid's [m3].
+# Quantities from the histories; "nan" for a value that is no number.  Variables: period, top (time of the full stroke in
+# it) [s]; cycles, the requested number, 2 by default; stroke [m3]; rest, the cavity's volume, and wall, the solid's [m3].
 # Input: diameter.dat (time, dD/D), volume.dat (time, swept, cavity, openNet, wall, control, wallFeedback, defect,
 # wallDefect, fluidFeedback), pressure.dat (time, p/G)
 function abs(a) { return a < 0 ? -a : a }
@@ -14,7 +14,7 @@ FNR == 1 { file = FILENAME; sub(/.*\//, "", file); sub(/\.dat$/, "", file) }
         if ($c !~ /^[-+]?[0-9.]/) broken[file, c] = 1
     }
 }
-# Row of the last time that is `phase` within a period; 0 if the history does not reach one
+# Row of the last time with this phase in a period; 0 if the history does not reach one
 function rowAt(file, phase,    end, t, i, best) {
     if (!(file in n)) return 0
     end = row[file, n[file], 1]
@@ -29,7 +29,7 @@ function largest(file, column,    i, most) {
     for (i = 1; i <= n[file]; ++i) if (abs(row[file, i, column]) > abs(most)) most = row[file, i, column]
     return most
 }
-# Column less another where it is largest
+# Largest value of one column less another
 function largestLess(file, column, other,    i, v, most) {
     if ((file, column) in broken || (file, other) in broken) return "nan"
     for (i = 1; i <= n[file]; ++i) {
@@ -38,14 +38,14 @@ function largestLess(file, column, other,    i, v, most) {
     }
     return most
 }
-# The ledger in row k and the cavity's defect [% of the stroke], as it is and less what control has put in
+# The ledger in row k and the cavity's defect [% of the stroke], with and without the volume that control has added
 function ledger(when, name, k,    c, title) {
     split("time swept cavity openNet wall control wallFeedback defect wallDefect fluidFeedback", title, " ")
     for (c = 2; c <= 10; ++c) say(when "." title[c], 100*row["volume", k, c]/stroke)
     say(name, 100*(row["volume", k, 3] - row["volume", k, 2])/stroke)
     say("own." name, 100*(row["volume", k, 3] - row["volume", k, 2] - row["volume", k, 6])/stroke)
 }
-# Largest difference [%] at the same phase between any two cycles that are `apart` from each other, linear between rows
+# Largest difference [%] at the same phase between any two cycles at the distance `apart`, linear between rows
 function differenceOf(apart,    i, j, t, a, d, most) {
     j = 1
     for (i = 1; i <= n["diameter"]; ++i) {

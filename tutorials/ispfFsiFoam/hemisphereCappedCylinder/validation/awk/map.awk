@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What a velocity map says: lines "<instant>.<quantity> value", in mm and mm/s.
+# Quantities from a velocity map: lines "<instant>.<quantity> value", in mm and mm/s.
 # Variables: instant; nozzle [m], height of the nozzle's end; profile, file to write for the diameter line
 # `above` [m] over the nozzle.
 # Input: diametral.dat with columns x y U_x U_y U_n, y along the axis, rows of constant y.
@@ -18,7 +18,7 @@
 }
 function abs(a) { return a < 0 ? -a : a }
 function say(name, value) { printf "%s.%s %.6g\n", instant, name, value }
-# Mean of the axial velocity over the bore around the axis in row j, axisymmetric weight
+# Mean axial velocity over the bore around the axis in row j, with axisymmetric weights
 function boreMean(j,    i, side, flux, area) {
     for (side = -1; side <= 1; side += 2)
         for (i = 0; (side*i, j) in known; ++i) { flux += w[side*i, j]*i; area += i }

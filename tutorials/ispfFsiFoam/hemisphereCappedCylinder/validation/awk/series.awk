@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Joins the files that a function object wrote at each start of the run into one history and prints
-# the time and the asked columns.  A restart replaces what it repeats.
+# the time and the requested columns.  A restart replaces the rows that it repeats.
 # Variable: want, the titles or numbers of columns separated by '|'.  Input: the files in the order of
 # their starts.
 BEGIN { nWant = split(want, title, "|") }

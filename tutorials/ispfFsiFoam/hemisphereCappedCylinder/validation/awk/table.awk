@@ -19,7 +19,7 @@ function row(name, f, key) {
     if (!(key in ours)) printf form, name, number(f[2]), f[3], "-", "not in this run"
     else printf form, name, number(f[2]), f[3], number(ours[key]), difference(f[2], ours[key])
 }
-# "TDC.peak" stands for the instant at which dead centres are judged and the others of the rest
+# "TDC.peak" represents the instant at which dead centres are judged, and the others of the rest
 function rows(f,    k, n, part, key, at) {
     if (f[6] !~ /^[TB]DC\./) { row(f[1], f, f[6]); return }
     at = ours["deadCentreInstant"]

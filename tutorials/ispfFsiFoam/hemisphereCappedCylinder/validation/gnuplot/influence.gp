@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# How far each variant moves each quantity from those of `base`.  Input: comparison/influence.csv
+# Change of each quantity by each variant, relative to `base`.  Input: comparison/influence.csv
 out = 'comparison/influence.png'
 width = 1200; height = 640
 load common

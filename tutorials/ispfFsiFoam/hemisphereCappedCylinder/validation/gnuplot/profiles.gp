@@ -21,7 +21,7 @@ do for [k=1:4] {
         unset label 1
     } else {
         label(f) = system("echo ".f."| sed 's/profile-//; s/.dat$//; s/.DC./stop + /; s/mid.*/ /; s/[0-9]$/& s/'")
-        # a curve that the other run lacks is drawn over itself
+        # if the other run lacks a curve, the curve is drawn over itself
         dotted(f) = (other ne "" && system("test -e '".other."/".f."' && echo y") eq "y" ? other : folder)."/".f
         plot for [i=1:words(files)] dotted(word(files, i)) using 1:2 with lines linestyle i \
                 dashtype 3 notitle, \

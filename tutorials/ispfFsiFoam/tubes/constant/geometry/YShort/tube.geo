@@ -1,4 +1,4 @@
-// A tube that branches; lengths are those of the axes from the point where they meet, its ends are open [mm]
+// A branching tube with open ends; lengths of the axes from the point where they meet [mm]
 SetFactory("OpenCASCADE");
 R0 = 4; L0 = 20;
 R1 = 4; L1 = 30;        // the short branch

@@ -1,8 +1,8 @@
-// A tube that is bent, between straight legs; its ends are open [mm]
+// A bent tube between straight legs, with open ends [mm]
 SetFactory("OpenCASCADE");
 R0 = 4; L0 = 20;        // radius, leg along z
 Rb = 12; angle = 90;    // radius of the axis, degrees
-L1 = 20;                // leg behind the bend
+L1 = 20;                // leg after the bend
 a = angle*Pi/180;
 Disk(1) = {0, 0, -L0, R0};
 leg() = Extrude { 0, 0, L0 } { Surface{1}; };
