@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fsiCase.H"
-#include "viscousPairs.H"
 
 #include "cloudIO.H"
 #include "sphc.H"
@@ -258,12 +257,10 @@ void fsiCase::carrySolids()
     }
 }
 
-void fsiCase::followOpen(scalar dt)
+void fsiCase::followOpen(const viscousPairs& viscous, scalar dt)
 {
     if (!walls->hasOpen()) return;
     cloud.fillGhosts(cloud.Up, false);
-    viscousPairs viscous;
-    viscous.setup({cloud, list, correction});
     List<vec4> friction;
     viscous.apply(cloud.Up, friction);
     for (vec4& f : friction) f.s *= -2 * mu;

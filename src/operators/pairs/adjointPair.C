@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "adjointPair.H"
 
+#include "slicedMatrix.H"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -24,31 +26,31 @@ struct view
     // a_ij of entry k.  Components from nDims on are those of the next entry
     ISPF_INLINE simd4 face(std::int64_t k) const
     {
-        simd4 a;
+        float4 a;
         std::memcpy(&a, faces.a.data() + faces.nDims * k, sizeof a);
-        return a;
+        return __builtin_convertvector(a, simd4);
     }
     simd4 inSpace() const { return simd4{1, 1, faces.nDims == 3 ? 1.0 : 0.0, 0}; }
 };
 
-ISPF_HOT void gradientRange(const view& v, const vec4* phi, label begin, label end, vec4* gp)
+ISPF_HOT void gradientRange(const view& v, const scalar* p, label begin, label end, vec4* gp)
 {
     const simd4 inSpace = v.inSpace();
     for (label i = begin; i < end; ++i)
     {
-        const scalar pi = phi[i].s[3];
+        const scalar pi = p[i];
         const simd4 sum = sumNeighbours(v.list, v.row(i), simd4{}, [&](pairIndex k, label j) {
-            return (phi[j].s[3] - pi) * v.face(k);
+            return (p[j] - pi) * v.face(k);
         });
         gp[i].s = sum * inSpace;
     }
 }
 
-ISPF_INLINE simd4 plainGradient(const view& v, const vec4* phi, label i)
+ISPF_INLINE simd4 plainGradient(const view& v, const scalar* p, label i)
 {
-    const scalar pi = phi[i].s[3];
+    const scalar pi = p[i];
     return sumNeighbours(v.list, v.row(i), simd4{}, [&](pairIndex k, label j) {
-        return (v.list.F[k] * (phi[j].s[3] - pi)) * (v.x[i].s - v.x[j].s);
+        return (v.list.F[k] * (p[j] - pi)) * (v.x[i].s - v.x[j].s);
     });
 }
 
@@ -290,14 +292,19 @@ void adjointPair::gradient(const List<vec4>& phi, List<vec4>& gp) const
     const view v{*list_, within_.end->data(), cloud_->x.data(), faces_};
     const List<vec4>& c = faces_.left;
     const List<vec4> all = twiceMean([&](label i, int d) { return c[i][d] * phi[i][3]; });
+    // p alone: the loop over pairs waits for what it gathers
+    p_.resize(cloud_->nAll());
+    parallelFor(cloud_->nAll(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i) p_[i] = phi[i].s[3];
+    });
     parallelFor(cloud_->n() - first, [&](label begin, label end) {
         begin += first, end += first;
-        gradientRange(v, phi.data(), begin, end, gp.data());
+        gradientRange(v, p_.data(), begin, end, gp.data());
         for (label i = begin; i < end; ++i) gp[i].s += all[faces_.bodies.of[i]].s;
         for (label i = begin; i < end; ++i)
             if (linearRow_[i] >= 0)
             {
-                const simd4 s = plainGradient(v, phi.data(), i);
+                const simd4 s = plainGradient(v, p_.data(), i);
                 gp[i].s += vec4::from(linearB_[linearRow_[i]] * vector(s[0], s[1], s[2])).s;
             }
     });

@@ -82,10 +82,10 @@ void couplingScheme::advance(scalar t, scalar dt, int depth)
 // Takes the step, or undoes it and prints the reason.  fatalError if it is refused after `most` halvings
 bool couplingScheme::accepted(scalar t, scalar dt, int halvings, int most)
 {
-    const particleCloud before = c_.cloud;
+    before_ = c_.cloud;
     word reason = attempt(t, dt);
     for (int k = 0; reason == outletsAsk && k < mostAsked; ++k)
-        c_.cloud = before, reason = attempt(t, dt);
+        c_.cloud = before_, reason = attempt(t, dt);
     if (reason.empty()) return true;
     if (halvings == most)
         throw fatalError("Time " + str(t) + " s: a step of " + str(dt) +
@@ -93,7 +93,7 @@ bool couplingScheme::accepted(scalar t, scalar dt, int halvings, int most)
                          " steps, each twice as long as the next, were refused. " + advice() +
                          ". The last written time is intact");
     warning("time " + str(t) + " s: step of " + str(dt) + " s halved: " + reason, 20);
-    c_.cloud = before;
+    c_.cloud = before_;
     return false;
 }
 

@@ -354,7 +354,7 @@ word monolithic::attempt(scalar t, scalar dt)
     system_.hydrostatic().giveBack(cloud);
     if (const word reason = tooRough(time_, dt); !reason.empty()) return reason;
 
-    c_.followOpen(dt);
+    c_.followOpen(system_.rows().viscous(), dt);
     // shift with the present neighbours, then move
     shift(shifting_, dt);
     move(time_);

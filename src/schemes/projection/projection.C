@@ -231,7 +231,7 @@ word projection::attempt(scalar t, scalar dt)
     if (const word reason = tooFar(dt); !reason.empty()) return reason;
     time_.end(cloud, energy_);
     if (const word reason = tooRough(time_, dt, mean_); !reason.empty()) return reason;
-    c_.followOpen(dt);
+    c_.followOpen(step_.viscous(), dt);
     // shift with the present neighbours, then move
     shift(shifting_, dt);
     move(time_, mean_);
