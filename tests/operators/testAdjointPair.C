@@ -125,6 +125,35 @@ TEST_CASE("the stabiliser is symmetric, takes energy, and leaves linear pressure
         }
 }
 
+TEST_CASE("the stiffness of a row bounds its gradient of p by the differences of p about it, (6.13)")
+{
+    scalar largest = 0, least = 1e30;
+    for (const unsigned seed : {1, 4})
+        for (const world& w : worlds(seed))
+        {
+            INFO(w.name, ", ", seed);
+            const List<scalar> s = w.pair.stiffness();
+            for (const unsigned of : {1, 2, 3})
+            {
+                const List<vec4> g = w.withGradient(randomField(w.cloud, of));
+                List<scalar> about(w.cloud.n(), 0);
+                w.sumPairs([&](label i, std::int64_t k) {
+                    about[i] += w.weight(k) * std::pow(g[i][3] - g[w.list.index[k]][3], 2);
+                    return 0.0;
+                });
+                for (label i = 0; i < w.cloud.n(); ++i)
+                {
+                    const scalar share = g[i].xyz().squaredNorm() / (2 * s[i] * about[i]);
+                    REQUIRE(share < 1);
+                    largest = std::max(largest, share), least = std::min(least, 1 / s[i]);
+                }
+            }
+        }
+    MESSAGE("largest share of the bound " << largest << ", largest stiffness " << 1 / least);
+    CHECK(largest > 0.3);
+    CHECK(least < 0.7);
+}
+
 TEST_CASE("gradient and divergence of smooth fields")
 {
     scalar eG[2], eD[2];

@@ -68,7 +68,7 @@ struct channel
     {
         list.build(cloud, *kernel);
         B.build(cloud, list);
-        sphm::laplacian({cloud, list, B}, A);
+        sphm::laplacian({cloud, list, B}, List<scalar>(cloud.n(), 1), A);
     }
 
     // The part of the offsets b of images in the right side; the matrix does not contain it
@@ -222,7 +222,7 @@ TEST_CASE("a lattice whose rows lie on the edges of the multigrid's cells is sol
     {
         const periodicBox box(3, n, 0, "cubic", 1);
         csrMatrix A;
-        sphm::laplacian(box.stencil(), A);
+        sphm::laplacian(box.stencil(), List<scalar>(box.cloud.n(), 1), A);
         List<vector> points;
         List<scalar> f, p(box.cloud.n(), 0);
         for (label i = 0; i < box.cloud.n(); ++i)

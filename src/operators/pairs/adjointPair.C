@@ -3,6 +3,8 @@
 
 #include "slicedMatrix.H"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -345,6 +347,31 @@ void adjointPair::remainder(const List<vec4>& g, List<vec4>& m, List<scalar>& di
         begin += first, end += first;
         remainderRange(v, g.data(), begin, end, m.data(), direct.data());
     });
+}
+
+List<scalar> adjointPair::stiffness() const
+{
+    constexpr scalar besidePlane = 2;  // lambda_max of a row beside a plane wall
+    List<scalar> s(cloud_->n(), 1);
+    const label first = within_.first;
+    const view v{*list_, within_.end->data(), cloud_->x.data(), faces_};
+    parallelFor(cloud_->n() - first, [&](label begin, label end) {
+        for (label i = first + begin; i < first + end; ++i)
+        {
+            tensor sum = tensor::Zero();
+            forNeighbours(*list_, v.row(i), [&](pairIndex k, label j) {
+                vector a = faces_.of(k);
+                if (linearRow_[i] >= 0)
+                    a += list_->F[k] * linearB_[linearRow_[i]] *
+                         (cloud_->x[i].xyz() - cloud_->x[j].xyz());
+                sum -= a * a.transpose() / list_->F[k];
+            });
+            if (!(sum.norm() > besidePlane)) continue;  // the norm is not less than lambda_max
+            const Eigen::SelfAdjointEigenSolver<tensor> e(sum, Eigen::EigenvaluesOnly);
+            s[i] = std::max(1.0, e.eigenvalues()[2] / besidePlane);
+        }
+    });
+    return s;
 }
 
 }  // namespace ispf

@@ -54,17 +54,19 @@ struct linkRows
     }
 };
 
-void appendLinks(const particleCloud& cloud, const neighbourList& list, label i, List<link>& links)
+void appendLinks(const particleCloud& cloud, const neighbourList& list,
+                 const List<scalar>& stiffness, label i, List<link>& links)
 {
     forNeighbours<among::connected>(list, i, [&](pairIndex k, label j) {
         if (j < cloud.n()) return;
-        const scalar w = -2 * list.F[k];
+        const scalar w = -(stiffness[i] + stiffness[cloud.ghostSource(j)]) * list.F[k];
         if (!negligible(w, cloud.dx))
             links.push_back({i, cloud.ghostSource(j), cloud.ruleOf(j).M(3, 3), w});
     });
 }
 
-List<link> linksOf(const particleCloud& cloud, const neighbourList& list)
+List<link> linksOf(const particleCloud& cloud, const neighbourList& list,
+                   const List<scalar>& stiffness)
 {
     constexpr label blockRows = 4096;
     const label nBlocks = (cloud.n() + blockRows - 1) / blockRows;
@@ -74,7 +76,7 @@ List<link> linksOf(const particleCloud& cloud, const neighbourList& list)
         [&](label begin, label end) {
             for (label b = begin; b < end; ++b)
                 for (label i = b * blockRows; i < std::min(cloud.n(), (b + 1) * blockRows); ++i)
-                    appendLinks(cloud, list, i, part[b]);
+                    appendLinks(cloud, list, stiffness, i, part[b]);
         },
         1);
     List<link> links;
@@ -102,13 +104,14 @@ List<link> symmetrised(const linkRows& rows)
 
 }  // namespace
 
-void imageEntries::build(const particleCloud& cloud, const neighbourList& list)
+void imageEntries::build(const particleCloud& cloud, const neighbourList& list,
+                         const List<scalar>& stiffness)
 {
     const label n = cloud.n();
     start.assign(n + 1, 0), diagonal.assign(n, 0), entries.clear();
     if (cloud.nGhosts() == 0) return;
 
-    const linkRows oneSided(n, linksOf(cloud, list));
+    const linkRows oneSided(n, linksOf(cloud, list, stiffness));
     const linkRows rows(n, symmetrised(oneSided));
     for (label i = 0; i < n; ++i)
     {

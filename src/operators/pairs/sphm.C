@@ -21,9 +21,10 @@ struct block
 class pressureAssembly
 {
 public:
-    pressureAssembly(const stencil& s, csrMatrix& A) : s_(s), A_(A)
+    pressureAssembly(const stencil& s, const List<scalar>& stiffness, csrMatrix& A)
+        : s_(s), stiffness_(stiffness), A_(A)
     {
-        images_.build(s.cloud, s.list);
+        images_.build(s.cloud, s.list, stiffness);
     }
 
     void run()
@@ -50,8 +51,9 @@ private:
         const size_t first = out.column.size();
         scalar diagonal = images_.diagonal[i];
         forNeighbours<among::connected>(s_.list, i, [&](pairIndex k, label j) {
-            const scalar w = -2 * s_.list.F[k];
-            if (j >= s_.cloud.n() || negligible(w, s_.cloud.dx)) return;
+            if (j >= s_.cloud.n()) return;
+            const scalar w = -(stiffness_[i] + stiffness_[j]) * s_.list.F[k];
+            if (negligible(w, s_.cloud.dx)) return;
             diagonal += w;
             add(out, j, -w);
         });
@@ -106,15 +108,16 @@ private:
     }
 
     const stencil& s_;
+    const List<scalar>& stiffness_;
     csrMatrix& A_;
     imageEntries images_;
 };
 
 }  // namespace
 
-void sphm::laplacian(const stencil& s, csrMatrix& A)
+void sphm::laplacian(const stencil& s, const List<scalar>& stiffness, csrMatrix& A)
 {
-    pressureAssembly(s, A).run();
+    pressureAssembly(s, stiffness, A).run();
 }
 
 }  // namespace ispf

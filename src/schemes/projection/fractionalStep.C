@@ -52,7 +52,7 @@ void fractionalStep::setup(particleCloud& cloud, const stencil& s, const smoothi
 {
     pair_.setup(cloud, s.list, kernel, medium::all(cloud, s.list, s.B));
     viscous_.setup(s);
-    sphm::laplacian(s, compact_);
+    sphm::laplacian(s, pair_.stiffness(), compact_);
     operator_.setup(cloud, s.list, pair_, compact_);
 }
 
