@@ -8,7 +8,6 @@
 #include "packing.H"
 
 #include "packingPairs.H"
-#include "smoothingKernel.H"
 #include <cmath>
 
 namespace ispf
@@ -29,12 +28,11 @@ public:
           guides_(guides),
           n_(label(particles.size())),
           pairs_(guides.geometry(), support),
-          kernel_(smoothingKernel::New("WendlandC2", guides.geometry().nDims(), support / 2)),
+          kernel_(packingKernel::shares(guides.geometry(), support)),
           multiplier_(n_, 0),
-          counted_(n_, 0)
+          counted_(n_, 0),
+          moved_(n_, 1)
     {
-        const scalar dx = guides.geometry().dx();
-        share_ = std::pow(dx, guides.geometry().nDims()) / kernel_->latticeSum(dx);
         const surfaceSearch ends(openEnds(guides.geometry()));
         for (label i = 0; i < n_; ++i)
             counted_[i] = particles[i].where == packedParticle::place::zone &&
@@ -45,12 +43,15 @@ public:
     {
         for (label step = 0; step < mostSteps; ++step)
         {
-            pairs_.refresh(particles_);
+            if (pairs_.refresh(particles_)) std::fill(moved_.begin(), moved_.end(), 1);
             if (!setMultipliers()) return;
             parallelFor(n_, [&](label begin, label end) {
                 for (label i = begin; i < end; ++i)
-                    if (const vector by = displacement(i); by.squaredNorm() > 0)
-                        guides_.move(particles_[i], underRelaxation * by, true);
+                {
+                    const vector by = displacement(i);
+                    moved_[i] = by.squaredNorm() > 0;
+                    if (moved_[i]) guides_.move(particles_[i], underRelaxation * by, true);
+                }
             });
         }
     }
@@ -59,47 +60,49 @@ private:
     // g_ij, gradient of a pair's part of the sum
     vector gradient(label i, label j) const
     {
-        const vector apart = pairs_.x(i) - pairs_.x(j);
-        const scalar distSqr = apart.squaredNorm();
-        scalar F = 0;
-        kernel_->F(&distSqr, &F, 1);
-        return share_ * F * apart;
+        const vector apart = pairs_.apart(i, j);
+        return kernel_.F(apart.norm()) * apart;
     }
 
-    // False if all sums are in the dead band
+    // False if all sums are in the dead band.  Where nobody has moved they are as before
     bool setMultipliers()
     {
         parallelFor(n_, [&](label begin, label end) {
-            for (label i = begin; i < end; ++i) multiplier_[i] = counted_[i] ? multiplierOf(i) : 0;
+            for (label i = begin; i < end; ++i)
+                if (counted_[i] && hasMoved(i)) multiplier_[i] = multiplierOf(i);
         });
         return std::any_of(multiplier_.begin(), multiplier_.end(), [](scalar l) { return l != 0; });
     }
 
+    bool hasMoved(label i) const
+    {
+        return moved_[i] || anyNeighbour<among::all>(pairs_.rows(), i, [&](pairIndex, label j) {
+                   return moved_[pairs_.source(j)] != 0;
+               });
+    }
+
     scalar multiplierOf(label i) const
     {
-        const auto [first, last] = pairs_.of(i);
-        scalar sum = share_ * kernel_->W(0);
-        for (const label* j = first; j != last; ++j)
-            sum += share_ * kernel_->W((pairs_.x(i) - pairs_.x(*j)).norm());
+        scalar sum = 0;
+        pairs_.sums(kernel_, i, i + 1, &sum);
         const scalar off = sum - 1, beyond = std::abs(off) - deadBand;
         if (beyond <= 0) return 0;
         vector total = vector::Zero();
         scalar squares = 0;
-        for (const label* j = first; j != last; ++j)
-        {
-            const vector g = gradient(i, *j);
+        forNeighbours<among::all>(pairs_.rows(), i, [&](pairIndex, label j) {
+            const vector g = gradient(i, j);
             total += g, squares += g.squaredNorm();
-        }
+        });
         return -std::copysign(beyond, off) / (total.squaredNorm() + squares);
     }
 
     vector displacement(label i) const
     {
-        const auto [first, last] = pairs_.of(i);
         vector sum = vector::Zero();
-        for (const label* j = first; j != last; ++j)
-            if (const scalar l = multiplier_[i] + multiplier_[pairs_.source(*j)]; l != 0)
-                sum += l * gradient(i, *j);
+        forNeighbours<among::all>(pairs_.rows(), i, [&](pairIndex, label j) {
+            if (const scalar l = multiplier_[i] + multiplier_[pairs_.source(j)]; l != 0)
+                sum += l * gradient(i, j);
+        });
         return sum;
     }
 
@@ -107,10 +110,9 @@ private:
     const packingGuides& guides_;
     label n_;
     packingPairs pairs_;
-    std::unique_ptr<smoothingKernel> kernel_;
-    scalar share_ = 0;  // of a particle in a full sum, per W
+    packingKernel kernel_;
     List<scalar> multiplier_;
-    List<char> counted_;
+    List<char> counted_, moved_;
 };
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include "packing.H"
 
 #include "packingPairs.H"
-#include "smoothingKernel.H"
 #include <array>
 #include <cmath>
 
@@ -35,10 +34,9 @@ public:
           target_(target),
           settings_(settings),
           dx_(geometry_.dx()),
-          wide_(smoothingKernel::New("WendlandC2", geometry_.nDims(), settings.support / 2)),
-          narrow_(smoothingKernel::New("WendlandC2", geometry_.nDims(), narrowSupport * dx_ / 2)),
-          cell_(std::pow(dx_, geometry_.nDims())),
-          full_(wide_->latticeSum(dx_)),
+          even_(packingKernel::shares(geometry_, settings.support)),
+          wide_(displacing(wideRate, settings.support)),
+          narrow_(displacing(narrowRate, narrowSupport * dx_)),
           pairs_(geometry_, settings.support)
     {
     }
@@ -55,55 +53,31 @@ public:
     }
 
 private:
+    // Whose force is a displacement
+    packingKernel displacing(scalar rate, scalar support) const
+    {
+        const scalar cell = std::pow(dx_, geometry_.nDims());
+        return packingKernel(geometry_.nDims(), support, -rate * cell * dx_ * dx_);
+    }
+
     // One move of all particles along the repulsion
     void step(scalar rate)
     {
         pairs_.refresh(particles_);
         parallelFor(label(particles_.size()), [&](label begin, label end) {
-            repulsion work;
-            for (label i = begin; i < end; ++i) guides_.move(particles_[i], rate * push(i, work));
+            List<vector> push(end - begin);
+            pairs_.repulsion(wide_, narrow_, begin, end, push.data());
+            for (label i = begin; i < end; ++i) guides_.move(particles_[i], rate * push[i - begin]);
         });
     }
 
-    struct repulsion
+    // Over that of the lattice
+    List<scalar> kernelSums()
     {
-        List<vector> apart;
-        List<scalar> distSqr, wide, narrow;
-    };
-
-    vector push(label i, repulsion& work) const
-    {
-        const auto [first, last] = pairs_.of(i);
-        const size_t n = size_t(last - first);
-        work.apart.resize(n), work.distSqr.resize(n), work.wide.resize(n), work.narrow.resize(n);
-        for (size_t k = 0; k < n; ++k)
-        {
-            work.apart[k] = pairs_.x(i) - pairs_.x(first[k]);
-            work.distSqr[k] = work.apart[k].squaredNorm();
-        }
-        wide_->F(work.distSqr.data(), work.wide.data(), label(n));
-        narrow_->F(work.distSqr.data(), work.narrow.data(), label(n));
-        vector sum = vector::Zero();
-        for (size_t k = 0; k < n; ++k)
-            sum -= (wideRate * work.wide[k] + narrowRate * work.narrow[k]) * work.apart[k];
-        return cell_ * dx_ * dx_ * sum;
-    }
-
-    scalar kernelSum(const cellList& cells, const vector& x) const
-    {
-        scalar sum = 0;
-        cells.near(x, settings_.support, [&](label, scalar d2) { sum += wide_->W(std::sqrt(d2)); });
-        return cell_ * sum / full_;
-    }
-
-    List<scalar> kernelSums() const
-    {
-        const List<vector> x = withImagePoints(particles_, geometry_, settings_.support);
-        const cellList cells(x, settings_.support);
+        pairs_.refresh(particles_);
         List<scalar> sum(particles_.size());
-        parallelFor(label(sum.size()), [&](label begin, label end) {
-            for (label i = begin; i < end; ++i) sum[i] = kernelSum(cells, x[i]);
-        });
+        parallelFor(label(sum.size()),
+                    [&](label begin, label end) { pairs_.sums(even_, begin, end, &sum[begin]); });
         return sum;
     }
 
@@ -127,8 +101,7 @@ private:
     const List<label>& target_;
     relaxationSettings settings_;
     scalar dx_;
-    std::unique_ptr<smoothingKernel> wide_, narrow_;
-    scalar cell_, full_;
+    packingKernel even_, wide_, narrow_;
     packingPairs pairs_;
 };
 
