@@ -13,9 +13,6 @@ namespace ispf
 namespace
 {
 
-// How far from a triangle its two sides are looked at, in dx: beyond the sag of coarse facets, well
-// within the thinnest zone that holds a particle
-constexpr scalar probe = 0.05;
 constexpr scalar mostParticles = 5e8;  // as labels, of images too, can number
 
 bool isPrismEnd(const triSurface& s, label t)
