@@ -17,6 +17,7 @@ namespace
 {
 
 constexpr scalar deadBand = 0.012;
+constexpr scalar aim = 0.011;  // within the band: its edge would be reached after steps without end
 constexpr scalar underRelaxation = 0.5;  // neighbours correct the same place at the same time
 constexpr label mostSteps = 60;
 
@@ -45,13 +46,11 @@ public:
         {
             if (pairs_.refresh(particles_)) std::fill(moved_.begin(), moved_.end(), 1);
             if (!setMultipliers()) return;
+            const List<char> held = reachedBy([&](label i) { return multiplier_[i] != 0; });
             parallelFor(n_, [&](label begin, label end) {
                 for (label i = begin; i < end; ++i)
-                {
-                    const vector by = displacement(i);
-                    moved_[i] = by.squaredNorm() > 0;
-                    if (moved_[i]) guides_.move(particles_[i], underRelaxation * by, true);
-                }
+                    if (moved_[i] = held[i]; held[i])
+                        guides_.move(particles_[i], underRelaxation * displacement(i), true);
             });
         }
     }
@@ -64,36 +63,45 @@ private:
         return kernel_.F(apart.norm()) * apart;
     }
 
+    // Those of which `starts` is true, and their neighbours
+    template <class Starts>
+    List<char> reachedBy(const Starts& starts) const
+    {
+        List<char> reached(n_, 0);
+        for (label i = 0; i < n_; ++i)
+            if (starts(i))
+            {
+                reached[i] = 1;
+                forNeighbours<among::all>(
+                    pairs_.rows(), i, [&](pairIndex, label j) { reached[pairs_.source(j)] = 1; });
+            }
+        return reached;
+    }
+
     // False if all sums are in the dead band.  Where nobody has moved they are as before
     bool setMultipliers()
     {
+        const List<char> changed = reachedBy([&](label i) { return moved_[i] != 0; });
         parallelFor(n_, [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
-                if (counted_[i] && hasMoved(i)) multiplier_[i] = multiplierOf(i);
+                if (counted_[i] && changed[i]) multiplier_[i] = multiplierOf(i);
         });
         return std::any_of(multiplier_.begin(), multiplier_.end(), [](scalar l) { return l != 0; });
-    }
-
-    bool hasMoved(label i) const
-    {
-        return moved_[i] || anyNeighbour<among::all>(pairs_.rows(), i, [&](pairIndex, label j) {
-                   return moved_[pairs_.source(j)] != 0;
-               });
     }
 
     scalar multiplierOf(label i) const
     {
         scalar sum = 0;
         pairs_.sums(kernel_, i, i + 1, &sum);
-        const scalar off = sum - 1, beyond = std::abs(off) - deadBand;
-        if (beyond <= 0) return 0;
+        const scalar off = sum - 1;
+        if (std::abs(off) <= deadBand) return 0;
         vector total = vector::Zero();
         scalar squares = 0;
         forNeighbours<among::all>(pairs_.rows(), i, [&](pairIndex, label j) {
             const vector g = gradient(i, j);
             total += g, squares += g.squaredNorm();
         });
-        return -std::copysign(beyond, off) / (total.squaredNorm() + squares);
+        return -std::copysign(std::abs(off) - aim, off) / (total.squaredNorm() + squares);
     }
 
     vector displacement(label i) const
