@@ -125,10 +125,9 @@ bool packingPairs::refresh(const List<packedParticle>& particles)
 bool packingPairs::stillGood(const List<packedParticle>& particles) const
 {
     if (xAtBuild_.size() != particles.size()) return false;
-    const scalar far = 0.25 * margin_ * margin_;
     for (size_t i = 0; i < particles.size(); ++i)  // the rest may only drift, and need not be exact
         if (particles[i].where == packedParticle::place::zone &&
-            (particles[i].x - xAtBuild_[i]).squaredNorm() > far)
+            (particles[i].x - xAtBuild_[i]).squaredNorm() > margin_ * margin_)
             return false;
     return true;
 }

@@ -18,10 +18,11 @@ using place = packedParticle::place;
 constexpr scalar narrowSupport = 1.7;  // in dx
 constexpr scalar wideRate = 0.4;       // of the displacement that would cure a long wave at once
 constexpr scalar narrowRate = 0.12;
-constexpr label correctionInterval = 12;  // iterations between additions and removals
-constexpr scalar roomAtBirth = 0.6;       // in dx, to the next particle
-constexpr scalar tolerableSum = 0.035;    // deviation of a kernel sum that calls for a correction
-constexpr scalar pair = 0.45;             // in dx: two so near, held in a corner, never part
+constexpr scalar momentum = 0.6;         // part of the last move that goes on: long waves take many
+constexpr label correctionInterval = 8;  // iterations between additions and removals
+constexpr scalar roomAtBirth = 0.6;      // in dx, to the next particle
+constexpr scalar tolerableSum = 0.035;   // deviation of a kernel sum that calls for a correction
+constexpr scalar pair = 0.45;            // in dx: two so near, held in a corner, never part
 
 class relaxation
 {
@@ -67,7 +68,13 @@ private:
         parallelFor(label(particles_.size()), [&](label begin, label end) {
             List<vector> push(end - begin);
             pairs_.repulsion(wide_, narrow_, begin, end, push.data());
-            for (label i = begin; i < end; ++i) guides_.move(particles_[i], rate * push[i - begin]);
+            for (label i = begin; i < end; ++i)
+            {
+                packedParticle& p = particles_[i];
+                const vector from = p.x;
+                guides_.move(p, rate * push[i - begin] + momentum * p.way);
+                p.way = p.x - from;
+            }
         });
     }
 
@@ -125,7 +132,7 @@ bool relaxation::birthPlace(const cellList& cells, const packedParticle& parent,
                 best = std::sqrt(nearest);
                 born = p;
             }
-    born.seed = born.x;
+    born.seed = born.x, born.way.setZero();
     return best > room;
 }
 

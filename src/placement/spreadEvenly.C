@@ -87,6 +87,7 @@ List<stretch> stretchesOf(const List<vector>& samples, const List<vector>& norma
 {
     // sides first: what rounding leaves stays on a side
     std::map<std::array<std::int64_t, 6>, List<label>> cubes;
+    auto at = cubes.end();  // the next sample is mostly in the same
     for (size_t i = 0; i < samples.size(); ++i)
     {
         std::array<std::int64_t, 6> c;
@@ -95,7 +96,8 @@ List<stretch> stretchesOf(const List<vector>& samples, const List<vector>& norma
             c[d] = std::lround(normals[i][d]);
             c[3 + d] = std::int64_t(std::floor(samples[i][d] / (cubeSize * spacing[0])));
         }
-        cubes[c].push_back(label(i));
+        if (at == cubes.end() || at->first != c) at = cubes.try_emplace(c).first;
+        at->second.push_back(label(i));
     }
     List<stretch> all;
     scalar due = 0;
