@@ -28,13 +28,13 @@ ISPF_HOT label closeInRun(const scalar* x, const scalar* y, const scalar* z, lab
 
 }  // namespace
 
-cellList::cellList(const List<vector>& points, scalar width) : width_(width)
+cellList::cellList(const List<vector>& points, scalar width) : width_(width), perWidth_(1 / width)
 {
     boundBox box;
     for (const vector& p : points) box.add(p);
     if (points.empty()) box.add(vector::Zero());
     low_ = box.min;
-    for (int k = 0; k < 3; ++k) n_[k] = label((box.max[k] - low_[k]) / width) + 1;
+    for (int k = 0; k < 3; ++k) n_[k] = label((box.max[k] - low_[k]) * perWidth_) + 1;
     start_.assign(size_t(n_[0]) * n_[1] * n_[2] + 1, 0);
     List<size_t> cell(points.size());
     for (size_t i = 0; i < points.size(); ++i)
@@ -58,7 +58,7 @@ size_t cellList::cellOf(const vector& x) const
 {
     label c[3];
     for (int k = 0; k < 3; ++k)
-        c[k] = std::clamp(label((x[k] - low_[k]) / width_), label(0), n_[k] - 1);
+        c[k] = std::clamp(label((x[k] - low_[k]) * perWidth_), label(0), n_[k] - 1);
     return (size_t(c[2]) * n_[1] + c[1]) * n_[0] + c[0];
 }
 

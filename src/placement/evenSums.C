@@ -16,8 +16,8 @@ namespace ispf
 namespace
 {
 
-constexpr scalar deadBand = 0.012;
-constexpr scalar aim = 0.011;  // within the band: its edge would be reached after steps without end
+constexpr scalar deadBand = 0.010;
+constexpr scalar aim = 0.009;  // within the band: its edge would be reached after steps without end
 constexpr scalar underRelaxation = 0.5;  // neighbours correct the same place at the same time
 constexpr label mostSteps = 60;
 

@@ -17,10 +17,10 @@ namespace
 
 using place = packedParticle::place;
 
-// 16 for a particle
+// 8 for a particle, 16 in 2D
 scalar samplesPerSpacing(int nDims)
 {
-    return nDims == 3 ? 2.5 : 4;
+    return nDims == 3 ? 2 : 4;
 }
 
 constexpr label bandsOfThick = 2;  // along each surface of a zone that is not thin
