@@ -4,7 +4,8 @@
 //
 //     dx_i = sum_j (l_i + l_j) g_ij,   l_i = -(s_i - 1)/(|sum_j g_ij|^2 + sum_j |g_ij|^2)
 //
-// Repulsion alone evens out differences between neighbours, not the sums themselves.
+// Repulsion alone evens out differences between neighbours, not the sums themselves.  Two that are too near are kept
+// apart in the same way.
 #include "packing.H"
 
 #include "packingPairs.H"
@@ -20,6 +21,7 @@ constexpr scalar deadBand = 0.010;
 constexpr scalar aim = 0.009;  // within the band: its edge would be reached after steps without end
 constexpr scalar underRelaxation = 0.5;  // neighbours correct the same place at the same time
 constexpr label mostSteps = 60;
+constexpr scalar nearest = 0.77;  // in dx: two that are nearer part
 
 class evening
 {
@@ -32,7 +34,9 @@ public:
           kernel_(packingKernel::shares(guides.geometry(), support)),
           multiplier_(n_, 0),
           counted_(n_, 0),
-          moved_(n_, 1)
+          crowded_(n_, 0),
+          moved_(n_, 1),
+          nearest_(nearest * guides.geometry().dx())
     {
         const surfaceSearch ends(openEnds(guides.geometry()));
         for (label i = 0; i < n_; ++i)
@@ -46,7 +50,7 @@ public:
         {
             if (pairs_.refresh(particles_)) std::fill(moved_.begin(), moved_.end(), 1);
             if (!setMultipliers()) return;
-            const List<char> held = reachedBy([&](label i) { return multiplier_[i] != 0; });
+            const List<char> held = reachedBy([&](label i) { return isOff(i); });
             parallelFor(n_, [&](label begin, label end) {
                 for (label i = begin; i < end; ++i)
                     if (moved_[i] = held[i]; held[i])
@@ -78,15 +82,30 @@ private:
         return reached;
     }
 
-    // False if all sums are in the dead band.  Where nobody has moved they are as before
+    bool isOff(label i) const { return multiplier_[i] != 0 || crowded_[i]; }
+
+    // False if all sums are in the dead band and nobody is crowded.  Where nobody has moved all is as before
     bool setMultipliers()
     {
         const List<char> changed = reachedBy([&](label i) { return moved_[i] != 0; });
         parallelFor(n_, [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
-                if (counted_[i] && changed[i]) multiplier_[i] = multiplierOf(i);
+                if (changed[i] && particles_[i].where == packedParticle::place::zone)
+                {
+                    multiplier_[i] = counted_[i] ? multiplierOf(i) : 0;
+                    crowded_[i] = isCrowded(i);
+                }
         });
-        return std::any_of(multiplier_.begin(), multiplier_.end(), [](scalar l) { return l != 0; });
+        for (label i = 0; i < n_; ++i)
+            if (isOff(i)) return true;
+        return false;
+    }
+
+    bool isCrowded(label i) const
+    {
+        return anyNeighbour<among::all>(pairs_.rows(), i, [&](pairIndex, label j) {
+            return pairs_.apart(i, j).squaredNorm() < nearest_ * nearest_;
+        });
     }
 
     scalar multiplierOf(label i) const
@@ -108,8 +127,12 @@ private:
     {
         vector sum = vector::Zero();
         forNeighbours<among::all>(pairs_.rows(), i, [&](pairIndex, label j) {
-            if (const scalar l = multiplier_[i] + multiplier_[pairs_.source(j)]; l != 0)
-                sum += l * gradient(i, j);
+            const scalar l = multiplier_[i] + multiplier_[pairs_.source(j)];
+            if (l != 0) sum += l * gradient(i, j);
+            if (!crowded_[i]) return;
+            const vector apart = pairs_.apart(i, j);
+            const scalar r = apart.norm();
+            if (r < nearest_ && r > 0) sum += (nearest_ - r) / r * apart;
         });
         return sum;
     }
@@ -120,7 +143,8 @@ private:
     packingPairs pairs_;
     packingKernel kernel_;
     List<scalar> multiplier_;
-    List<char> counted_, moved_;
+    List<char> counted_, crowded_, moved_;
+    scalar nearest_;
 };
 
 }  // namespace
