@@ -90,15 +90,21 @@ private:
         const List<char> changed = reachedBy([&](label i) { return moved_[i] != 0; });
         parallelFor(n_, [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
-                if (changed[i] && particles_[i].where == packedParticle::place::zone)
+                if (changed[i])
                 {
                     multiplier_[i] = counted_[i] ? multiplierOf(i) : 0;
-                    crowded_[i] = isCrowded(i);
+                    crowded_[i] = isPlaced(i) && isCrowded(i);
                 }
         });
         for (label i = 0; i < n_; ++i)
             if (isOff(i)) return true;
         return false;
+    }
+
+    bool isPlaced(label i) const
+    {
+        return particles_[i].where == packedParticle::place::zone ||
+               particles_[i].where == packedParticle::place::strip;
     }
 
     bool isCrowded(label i) const
