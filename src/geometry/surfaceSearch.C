@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <tuple>
 
 namespace ispf
 {
@@ -114,15 +114,13 @@ label surfaceSearch::build(label begin, label end)
 
 void surfaceSearch::setNormals()
 {
-    struct edgeSum
+    struct side  // side k of a triangle; edge: its two nodes
     {
-        vector normal = vector::Zero();
-        int users = 0;
+        std::pair<label, label> edge;
+        label triangle;
+        int k;
     };
-    std::map<std::pair<label, label>, edgeSum> edge;
-    const auto sumOf = [&](label t, int k) -> edgeSum& {
-        return edge[std::minmax(surface_.triangles[t][k], surface_.triangles[t][(k + 1) % 3])];
-    };
+    List<side> sides;
     nodeNormal_.assign(surface_.nodes.size(), vector::Zero());
     for (label t = 0; t < surface_.size(); ++t)
     {
@@ -130,8 +128,8 @@ void surfaceSearch::setNormals()
         facetNormal_.push_back(n);
         for (int k = 0; k < 3; ++k)
         {
-            sumOf(t, k).normal += n;
-            ++sumOf(t, k).users;
+            sides.push_back(
+                {std::minmax(surface_.triangles[t][k], surface_.triangles[t][(k + 1) % 3]), t, k});
             const vector u = surface_.corner(t, (k + 1) % 3) - surface_.corner(t, k);
             const vector v = surface_.corner(t, (k + 2) % 3) - surface_.corner(t, k);
             nodeNormal_[surface_.triangles[t][k]] += std::atan2(u.cross(v).norm(), u.dot(v)) * n;
@@ -140,15 +138,23 @@ void surfaceSearch::setNormals()
     edgeNormal_.resize(surface_.size());
     rim_.assign(surface_.size(), 0);
     List<char> onRim(surface_.nodes.size(), 0);
-    for (label t = 0; t < surface_.size(); ++t)
-        for (int k = 0; k < 3; ++k)
+    std::sort(sides.begin(), sides.end(), [](const side& a, const side& b) {
+        return std::tie(a.edge, a.triangle, a.k) < std::tie(b.edge, b.triangle, b.k);
+    });
+    for (size_t first = 0, last; first < sides.size(); first = last)
+    {
+        vector sum = vector::Zero();
+        for (last = first; last < sides.size() && sides[last].edge == sides[first].edge; ++last)
+            sum += facetNormal_[sides[last].triangle];
+        for (size_t s = first; s < last; ++s)
         {
-            const edgeSum& sum = sumOf(t, k);
-            edgeNormal_[t][k] = sum.normal.normalized();
-            if (sum.users > 1) continue;
+            const auto& [edge, t, k] = sides[s];
+            edgeNormal_[t][k] = sum.normalized();
+            if (last > first + 1) continue;
             rim_[t] |= std::uint8_t(1 << k);
-            onRim[surface_.triangles[t][k]] = onRim[surface_.triangles[t][(k + 1) % 3]] = 1;
+            onRim[edge.first] = onRim[edge.second] = 1;
         }
+    }
     for (label t = 0; t < surface_.size(); ++t)
         for (int k = 0; k < 3; ++k)
             if (onRim[surface_.triangles[t][k]]) rim_[t] |= std::uint8_t(8 << k);

@@ -28,12 +28,6 @@ void boundBox::add(const boundBox& box)
     max = max.cwiseMax(box.max);
 }
 
-scalar boundBox::distSqr(const vector& p) const
-{
-    const vector zero = vector::Zero();
-    return (min - p).cwiseMax(p - max).cwiseMax(zero).squaredNorm();
-}
-
 vector triSurface::areaVector(label t) const
 {
     return 0.5 * (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));

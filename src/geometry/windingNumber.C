@@ -23,14 +23,33 @@ vector areaVector(const std::array<vector, 3>& t)
     return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]);
 }
 
-// Van Oosterom & Strackee 1983, IEEE Trans. Biomed. Eng. 30
-scalar solidAngle(const std::array<vector, 3>& t, const vector& p)
+// A sum of angles.  Keeps the product of complex numbers and the number of whole turns that it does not contain
+class angleSum
+{
+public:
+    void add(scalar real, scalar imaginary)
+    {
+        if (real == 0 && imaginary == 0) return;
+        const scalar re = re_ * real - im_ * imaginary, im = re_ * imaginary + im_ * real;
+        if (im_ >= 0 && imaginary >= 0 && im < 0) turns_ += 1;
+        if (im_ < 0 && imaginary < 0 && im >= 0) turns_ -= 1;
+        re_ = re, im_ = im;
+    }
+    scalar value() const { return std::atan2(im_, re_) + 2 * M_PI * turns_; }
+
+private:
+    scalar re_ = 1, im_ = 0, turns_ = 0;
+};
+
+// Adds half the solid angle of a triangle (Van Oosterom & Strackee 1983, IEEE Trans. Biomed. Eng. 30)
+void addHalfAngle(const std::array<vector, 3>& t, const vector& p, angleSum& sum)
 {
     const vector a = t[0] - p, b = t[1] - p, c = t[2] - p;
-    const scalar la = a.norm(), lb = b.norm(), lc = c.norm();
+    const scalar la = a.norm(), lb = b.norm(), lc = c.norm(), size = la * lb * lc;
+    if (size == 0) return;
     const scalar volume = a.dot(b.cross(c));
-    const scalar below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-    return 2 * std::atan2(volume, below);
+    const scalar below = size + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+    sum.add(below / size, volume / size);
 }
 
 }  // namespace
@@ -79,9 +98,9 @@ label windingNumber::build(label begin, label end)
 
 scalar windingNumber::solidAngles(const node& n, const vector& p) const
 {
-    scalar sum = 0;
-    for (label t = n.begin; t < n.end; ++t) sum += solidAngle(triangles_[t], p);
-    return sum;
+    angleSum sum;
+    for (label t = n.begin; t < n.end; ++t) addHalfAngle(triangles_[t], p, sum);
+    return 2 * sum.value();
 }
 
 scalar windingNumber::value(const vector& p) const

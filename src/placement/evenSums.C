@@ -4,11 +4,11 @@
 //
 //     dx_i = sum_j (l_i + l_j) g_ij,   l_i = -(s_i - 1)/(|sum_j g_ij|^2 + sum_j |g_ij|^2)
 //
-// Repulsion alone makes differences between neighbours even, but not the sums themselves.
+// Repulsion alone makes differences between neighbours even, but not the sums themselves.  The same steps push apart
+// two particles that are too near to each other.
 #include "packing.H"
 
 #include "packingPairs.H"
-#include "smoothingKernel.H"
 #include <cmath>
 
 namespace ispf
@@ -17,9 +17,12 @@ namespace ispf
 namespace
 {
 
-constexpr scalar deadBand = 0.012;
+constexpr scalar deadBand = 0.010;
+constexpr scalar aim =
+    0.009;  // lies within the band: steps that aim at the edge never quite reach it
 constexpr scalar underRelaxation = 0.5;  // neighbours correct the same place at the same time
 constexpr label mostSteps = 60;
+constexpr scalar nearest = 0.77;  // in dx: two particles that are nearer are pushed apart
 
 class evening
 {
@@ -29,12 +32,13 @@ public:
           guides_(guides),
           n_(label(particles.size())),
           pairs_(guides.geometry(), support),
-          kernel_(smoothingKernel::New("WendlandC2", guides.geometry().nDims(), support / 2)),
+          kernel_(packingKernel::shares(guides.geometry(), support)),
           multiplier_(n_, 0),
-          counted_(n_, 0)
+          counted_(n_, 0),
+          crowded_(n_, 0),
+          moved_(n_, 1),
+          nearest_(nearest * guides.geometry().dx())
     {
-        const scalar dx = guides.geometry().dx();
-        share_ = std::pow(dx, guides.geometry().nDims()) / kernel_->latticeSum(dx);
         const surfaceSearch ends(openEnds(guides.geometry()));
         for (label i = 0; i < n_; ++i)
             counted_[i] = particles[i].where == packedParticle::place::zone &&
@@ -45,12 +49,13 @@ public:
     {
         for (label step = 0; step < mostSteps; ++step)
         {
-            pairs_.refresh(particles_);
+            if (pairs_.refresh(particles_)) std::fill(moved_.begin(), moved_.end(), 1);
             if (!setMultipliers()) return;
+            const List<char> held = reachedBy([&](label i) { return isOff(i); });
             parallelFor(n_, [&](label begin, label end) {
                 for (label i = begin; i < end; ++i)
-                    if (const vector by = displacement(i); by.squaredNorm() > 0)
-                        guides_.move(particles_[i], underRelaxation * by, true);
+                    if (moved_[i] = held[i]; held[i])
+                        guides_.move(particles_[i], underRelaxation * displacement(i), true);
             });
         }
     }
@@ -59,47 +64,83 @@ private:
     // g_ij, gradient of the pair's part of the sum
     vector gradient(label i, label j) const
     {
-        const vector apart = pairs_.x(i) - pairs_.x(j);
-        const scalar distSqr = apart.squaredNorm();
-        scalar F = 0;
-        kernel_->F(&distSqr, &F, 1);
-        return share_ * F * apart;
+        const vector apart = pairs_.apart(i, j);
+        return kernel_.F(apart.norm()) * apart;
     }
 
-    // False if all sums are in the dead band
+    // Marks the particles for which `starts` is true, and their neighbours
+    template <class Starts>
+    List<char> reachedBy(const Starts& starts) const
+    {
+        List<char> reached(n_, 0);
+        for (label i = 0; i < n_; ++i)
+            if (starts(i))
+            {
+                reached[i] = 1;
+                forNeighbours<among::all>(
+                    pairs_.rows(), i, [&](pairIndex, label j) { reached[pairs_.source(j)] = 1; });
+            }
+        return reached;
+    }
+
+    bool isOff(label i) const { return multiplier_[i] != 0 || crowded_[i]; }
+
+    // False if all sums are in the dead band and no particle is crowded.  Values where no particle has moved stay
     bool setMultipliers()
     {
+        const List<char> changed = reachedBy([&](label i) { return moved_[i] != 0; });
         parallelFor(n_, [&](label begin, label end) {
-            for (label i = begin; i < end; ++i) multiplier_[i] = counted_[i] ? multiplierOf(i) : 0;
+            for (label i = begin; i < end; ++i)
+                if (changed[i])
+                {
+                    multiplier_[i] = counted_[i] ? multiplierOf(i) : 0;
+                    crowded_[i] = isPlaced(i) && isCrowded(i);
+                }
         });
-        return std::any_of(multiplier_.begin(), multiplier_.end(), [](scalar l) { return l != 0; });
+        for (label i = 0; i < n_; ++i)
+            if (isOff(i)) return true;
+        return false;
+    }
+
+    bool isPlaced(label i) const
+    {
+        return particles_[i].where == packedParticle::place::zone ||
+               particles_[i].where == packedParticle::place::strip;
+    }
+
+    bool isCrowded(label i) const
+    {
+        return anyNeighbour<among::all>(pairs_.rows(), i, [&](pairIndex, label j) {
+            return pairs_.apart(i, j).squaredNorm() < nearest_ * nearest_;
+        });
     }
 
     scalar multiplierOf(label i) const
     {
-        const auto [first, last] = pairs_.of(i);
-        scalar sum = share_ * kernel_->W(0);
-        for (const label* j = first; j != last; ++j)
-            sum += share_ * kernel_->W((pairs_.x(i) - pairs_.x(*j)).norm());
-        const scalar off = sum - 1, beyond = std::abs(off) - deadBand;
-        if (beyond <= 0) return 0;
+        scalar sum = 0;
+        pairs_.sums(kernel_, i, i + 1, &sum);
+        const scalar off = sum - 1;
+        if (std::abs(off) <= deadBand) return 0;
         vector total = vector::Zero();
         scalar squares = 0;
-        for (const label* j = first; j != last; ++j)
-        {
-            const vector g = gradient(i, *j);
+        forNeighbours<among::all>(pairs_.rows(), i, [&](pairIndex, label j) {
+            const vector g = gradient(i, j);
             total += g, squares += g.squaredNorm();
-        }
-        return -std::copysign(beyond, off) / (total.squaredNorm() + squares);
+        });
+        return -std::copysign(std::abs(off) - aim, off) / (total.squaredNorm() + squares);
     }
 
     vector displacement(label i) const
     {
-        const auto [first, last] = pairs_.of(i);
         vector sum = vector::Zero();
-        for (const label* j = first; j != last; ++j)
-            if (const scalar l = multiplier_[i] + multiplier_[pairs_.source(*j)]; l != 0)
-                sum += l * gradient(i, *j);
+        forNeighbours<among::all>(pairs_.rows(), i, [&](pairIndex, label j) {
+            const scalar l = multiplier_[i] + multiplier_[pairs_.source(j)];
+            if (l != 0) sum += l * gradient(i, j);
+            if (!crowded_[i]) return;
+            const vector apart = pairs_.apart(i, j);
+            const scalar r = apart.norm();
+            if (r < nearest_ && r > 0) sum += (nearest_ - r) / r * apart;
+        });
         return sum;
     }
 
@@ -107,10 +148,10 @@ private:
     const packingGuides& guides_;
     label n_;
     packingPairs pairs_;
-    std::unique_ptr<smoothingKernel> kernel_;
-    scalar share_ = 0;  // share of a particle in a full sum, per W
+    packingKernel kernel_;
     List<scalar> multiplier_;
-    List<char> counted_;
+    List<char> counted_, crowded_, moved_;
+    scalar nearest_;
 };
 
 }  // namespace

@@ -42,7 +42,7 @@ void packingGuides::hold(packedParticle& p, const vector& by, bool exactly) cons
 {
     const scalar dx = geometry_.dx();
     p.x += by;
-    if (!p.bound()) holdFree(p, by.norm(), exactly);
+    if (!p.bound()) p.clearance -= by.norm(), holdFree(p);
     else
     {
         // the tangent plane is good enough for a tenth of a spacing
@@ -58,7 +58,7 @@ void packingGuides::hold(packedParticle& p, const vector& by, bool exactly) cons
     for (const halfSpace& plane : geometry_.symmetryPlanes())
     {
         const scalar d = plane.distance(p.x);
-        if (d > -clear) p.x -= (d + clear) * plane.normal;
+        if (d > -clear) p.x -= (d + clear) * plane.normal, p.clearance -= d + clear;
     }
     if (geometry_.nDims() == 2) p.x[2] = 0;  // normals of slices are exact to rounding errors only
 }
@@ -91,11 +91,10 @@ label packingGuides::wallBeside(const vector& x, label openPatch) const
     return -1;
 }
 
-void packingGuides::holdFree(packedParticle& p, scalar moved, bool exactly) const
+void packingGuides::holdFree(packedParticle& p) const
 {
     const scalar dx = geometry_.dx(), want = 0.5 * dx, look = 2 * dx;
-    p.clearance -= moved;
-    if (p.clearance >= want && !exactly) return;
+    if (p.clearance >= want) return;
     for (int pass = 0; pass < 2; ++pass)  // twice: in a corner two faces push
     {
         const surfacePoint q = zoneSurface_[p.owner].nearest(p.x, look);

@@ -4,7 +4,6 @@
 #include "packing.H"
 
 #include "packingPairs.H"
-#include "smoothingKernel.H"
 #include <array>
 #include <cmath>
 
@@ -19,9 +18,11 @@ using place = packedParticle::place;
 constexpr scalar narrowSupport = 1.7;  // in dx
 constexpr scalar wideRate = 0.4;       // of the displacement that would remove a long wave at once
 constexpr scalar narrowRate = 0.12;
-constexpr label correctionInterval = 12;  // iterations between additions and removals
-constexpr scalar roomAtBirth = 0.6;       // in dx, to the next particle
-constexpr scalar tolerableSum = 0.035;    // deviation of a kernel sum that calls for a correction
+constexpr scalar momentum =
+    0.6;  // part of the last move that is repeated: long waves need many moves
+constexpr label correctionInterval = 8;  // iterations between additions and removals
+constexpr scalar roomAtBirth = 0.6;      // in dx, to the next particle
+constexpr scalar tolerableSum = 0.035;   // deviation of a kernel sum that calls for a correction
 // in dx: two particles nearer than this, held in a corner, never part
 constexpr scalar pair = 0.45;
 
@@ -36,10 +37,9 @@ public:
           target_(target),
           settings_(settings),
           dx_(geometry_.dx()),
-          wide_(smoothingKernel::New("WendlandC2", geometry_.nDims(), settings.support / 2)),
-          narrow_(smoothingKernel::New("WendlandC2", geometry_.nDims(), narrowSupport * dx_ / 2)),
-          cell_(std::pow(dx_, geometry_.nDims())),
-          full_(wide_->latticeSum(dx_)),
+          even_(packingKernel::shares(geometry_, settings.support)),
+          wide_(displacing(wideRate, settings.support)),
+          narrow_(displacing(narrowRate, narrowSupport * dx_)),
           pairs_(geometry_, settings.support)
     {
     }
@@ -56,55 +56,37 @@ public:
     }
 
 private:
+    // A kernel whose F, times x_i - x_j, is a displacement
+    packingKernel displacing(scalar rate, scalar support) const
+    {
+        const scalar cell = std::pow(dx_, geometry_.nDims());
+        return packingKernel(geometry_.nDims(), support, -rate * cell * dx_ * dx_);
+    }
+
     // Moves all particles once along the repulsion
     void step(scalar rate)
     {
         pairs_.refresh(particles_);
         parallelFor(label(particles_.size()), [&](label begin, label end) {
-            repulsion work;
-            for (label i = begin; i < end; ++i) guides_.move(particles_[i], rate * push(i, work));
+            List<vector> push(end - begin);
+            pairs_.repulsion(wide_, narrow_, begin, end, push.data());
+            for (label i = begin; i < end; ++i)
+            {
+                packedParticle& p = particles_[i];
+                const vector from = p.x;
+                guides_.move(p, rate * push[i - begin] + momentum * p.way);
+                p.way = p.x - from;
+            }
         });
     }
 
-    struct repulsion
+    // Sets the kernel sums of particles [begin, end) over the sum of the lattice
+    List<scalar> kernelSums()
     {
-        List<vector> apart;
-        List<scalar> distSqr, wide, narrow;
-    };
-
-    vector push(label i, repulsion& work) const
-    {
-        const auto [first, last] = pairs_.of(i);
-        const size_t n = size_t(last - first);
-        work.apart.resize(n), work.distSqr.resize(n), work.wide.resize(n), work.narrow.resize(n);
-        for (size_t k = 0; k < n; ++k)
-        {
-            work.apart[k] = pairs_.x(i) - pairs_.x(first[k]);
-            work.distSqr[k] = work.apart[k].squaredNorm();
-        }
-        wide_->F(work.distSqr.data(), work.wide.data(), label(n));
-        narrow_->F(work.distSqr.data(), work.narrow.data(), label(n));
-        vector sum = vector::Zero();
-        for (size_t k = 0; k < n; ++k)
-            sum -= (wideRate * work.wide[k] + narrowRate * work.narrow[k]) * work.apart[k];
-        return cell_ * dx_ * dx_ * sum;
-    }
-
-    scalar kernelSum(const cellList& cells, const vector& x) const
-    {
-        scalar sum = 0;
-        cells.near(x, settings_.support, [&](label, scalar d2) { sum += wide_->W(std::sqrt(d2)); });
-        return cell_ * sum / full_;
-    }
-
-    List<scalar> kernelSums() const
-    {
-        const List<vector> x = withImagePoints(particles_, geometry_, settings_.support);
-        const cellList cells(x, settings_.support);
+        pairs_.refresh(particles_);
         List<scalar> sum(particles_.size());
-        parallelFor(label(sum.size()), [&](label begin, label end) {
-            for (label i = begin; i < end; ++i) sum[i] = kernelSum(cells, x[i]);
-        });
+        parallelFor(label(sum.size()),
+                    [&](label begin, label end) { pairs_.sums(even_, begin, end, &sum[begin]); });
         return sum;
     }
 
@@ -128,8 +110,7 @@ private:
     const List<label>& target_;
     relaxationSettings settings_;
     scalar dx_;
-    std::unique_ptr<smoothingKernel> wide_, narrow_;
-    scalar cell_, full_;
+    packingKernel even_, wide_, narrow_;
     packingPairs pairs_;
 };
 
@@ -153,7 +134,7 @@ bool relaxation::birthPlace(const cellList& cells, const packedParticle& parent,
                 best = std::sqrt(nearest);
                 born = p;
             }
-    born.seed = born.x;
+    born.seed = born.x, born.way.setZero();
     return best > room;
 }
 

@@ -17,10 +17,10 @@ namespace
 
 using place = packedParticle::place;
 
-// About 16 samples per particle
+// About 8 samples per particle, 16 in 2D
 scalar samplesPerSpacing(int nDims)
 {
-    return nDims == 3 ? 2.5 : 4;
+    return nDims == 3 ? 2 : 4;
 }
 
 constexpr label bandsOfThick = 2;  // along each surface of a zone that is not thin
@@ -53,11 +53,10 @@ public:
     {
     }
 
-    // Finds the band of x; false if x is in no band
-    bool at(const vector& x, sample& s) const
+    // Finds the band of x, which lies in the given zone; false if x is in no band
+    bool at(const vector& x, label zone, sample& s) const
     {
         if (geometry_.beyondSymmetry(x) >= 0) return false;
-        const label zone = geometry_.zoneAt(x);
         return zone >= 0 ? inZone(x, zone, s) : outside(x, s);
     }
 
@@ -173,9 +172,10 @@ public:
 private:
     bool isNothing(const vector& x) const
     {
-        if (geometry_.beyondSymmetry(x) >= 0 || geometry_.zoneAt(x) >= 0) return false;
-        return !isSwept(centreOf((x / dx_).array().floor())) ||
-               guides_.outside().at(x).type == exteriorPoint::kind::nothing;
+        if (geometry_.beyondSymmetry(x) >= 0) return false;
+        const bool something = isSwept(centreOf((x / dx_).array().floor())) &&
+                               guides_.outside().at(x).type != exteriorPoint::kind::nothing;
+        return !something && geometry_.zoneAt(x) < 0;
     }
 
     vector centreOf(const vector& cell) const
@@ -198,6 +198,13 @@ private:
         return false;
     }
 
+    // True if neither a face nor a sliver between faces is within the radius
+    bool isWithinOneZone(const vector& x, scalar radius) const
+    {
+        return geometry_.beyondSymmetry(x) < -radius &&
+               !nearSurface(x, radius + zoneGeometry::probe * dx_);
+    }
+
     void cell(std::int64_t i, std::int64_t j, std::int64_t k, bandSamples& out) const
     {
         const vector centre = centreOf(vector(i, j, k));
@@ -216,6 +223,12 @@ private:
             last[d] = std::int64_t(std::ceil((cell[d] + 1) * perSpacing - 1e-9));
         }
         if (geometry_.nDims() == 2) first[2] = 0, last[2] = 1;
+        const vector centre = centreOf(vector(i, j, k));
+        vector reach = vector::Zero();
+        for (int d = 0; d < geometry_.nDims(); ++d)
+            reach[d] = std::max(centre[d] - first[d] * a, last[d] * a - centre[d]);
+        const bool oneZone = isWithinOneZone(centre, reach.norm());
+        const label zone = oneZone ? geometry_.zoneAt(centre) : -1;
         for (std::int64_t c = first[2]; c < last[2]; ++c)
             for (std::int64_t b = first[1]; b < last[1]; ++b)
                 for (std::int64_t e = first[0]; e < last[0]; ++e)
@@ -225,7 +238,8 @@ private:
                     x *= a;
                     if (geometry_.nDims() == 2) x[2] = 0;
                     sample s;
-                    if (sampler_.at(x, s)) out[{s.p.where, s.p.owner, s.band}].push_back(s);
+                    if (sampler_.at(x, oneZone ? zone : geometry_.zoneAt(x), s))
+                        out[{s.p.where, s.p.owner, s.band}].push_back(s);
                 }
     }
 
@@ -283,7 +297,7 @@ private:
         const surfacePoint q = guides_.surface(p.owner).nearest(p.x, 2 * bandsOfThick * dx);
         if (q.found && q.distance < (bandsOfThick - 0.5) * dx) return;
         sample s;
-        if (bands.at(p.x, s) && s.thin) return;
+        if (bands.at(p.x, p.owner, s) && s.thin) return;
         row.push_back({q.found ? q.distance : 1e300, p});
     }
 
@@ -292,6 +306,27 @@ private:
     tensor turn_;
     label half_;
 };
+
+// Interleaves the bits of three indices: cells that are near in space get keys that are near
+std::uint64_t zOrder(const vector& cell)
+{
+    constexpr int bits = 21;
+    std::uint64_t key = 0;
+    for (int b = 0; b < bits; ++b)
+        for (int d = 0; d < 3; ++d) key |= (std::uint64_t(cell[d]) >> b & 1) << (3 * b + d);
+    return key;
+}
+
+void sortInSpace(List<packedParticle>& particles, const vector& low, scalar dx)
+{
+    List<std::pair<std::uint64_t, label>> order;
+    for (size_t i = 0; i < particles.size(); ++i)
+        order.push_back({zOrder((particles[i].x - low) / dx), label(i)});
+    std::sort(order.begin(), order.end());
+    List<packedParticle> sorted;
+    for (const auto& [key, i] : order) sorted.push_back(particles[i]);
+    particles = std::move(sorted);
+}
 
 }  // namespace
 
@@ -343,6 +378,7 @@ List<packedParticle> seedPacking(const packingGuides& guides, List<label>& targe
         p.seed = p.x;
         p.fixed = p.where != place::zone && sweep.endsBeside(p);
     }
+    sortInSpace(seeds, guides.outside().bounds().min, dx);
     return seeds;
 }
 

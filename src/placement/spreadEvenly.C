@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <queue>
+#include <numeric>
 
 namespace ispf
 {
@@ -39,18 +39,6 @@ public:
 
     label size() const { return label(copies_.size()); }
 
-    // Crowding by the sample's own images, which cannot be dropped without it
-    scalar selfCrowding(label i) const
-    {
-        scalar sum = 0;
-        for (const label copy : copies_[i])
-        {
-            const scalar d2 = (x_[copy] - x_[i]).squaredNorm(), reach = triangular * spacing_[i];
-            if (copy != i && d2 < reach * reach) sum += weight(d2, reach);
-        }
-        return sum;
-    }
-
     // Calls visit(j, weight) for all samples that crowd sample i or are crowded by it
     template <class Visit>
     void around(label i, Visit&& visit) const
@@ -76,94 +64,94 @@ private:
     }
 
     List<vector> x_;
-    const List<scalar>& spacing_;
+    List<scalar> spacing_;
     scalar reach_;
     List<label> source_;
     List<List<label>> copies_;
     std::unique_ptr<cellList> cells_;
 };
 
-// The number of samples that each cube of a few spacings may still lose, separately for the two sides of a wall.
-// Crowding is local: without quotas, rims and chance would make one region denser than another by some percent.
-class quotas
+// A cube of a few spacings on one side of a wall, and the number of samples that it still drops.
+// Crowding is local: without these numbers, rims and chance would make one region denser than another by some percent.
+struct stretch
 {
-public:
-    quotas(const List<vector>& samples, const List<vector>& normals, const List<scalar>& spacing,
-           label keep)
-    {
-        // the side is the first part of the key, so that a rounding rest stays on its side
-        std::map<std::array<std::int64_t, 6>, List<label>> cubes;
-        for (size_t i = 0; i < samples.size(); ++i)
-        {
-            std::array<std::int64_t, 6> c;
-            for (int d = 0; d < 3; ++d)
-            {
-                c[d] = std::lround(normals[i][d]);
-                c[3 + d] = std::int64_t(std::floor(samples[i][d] / (cubeSize * spacing[0])));
-            }
-            cubes[c].push_back(label(i));
-        }
-        cube_.resize(samples.size());
-        scalar due = 0;
-        label given = 0;
-        for (const auto& [c, members] : cubes)  // rounded so that the sum is exact
-        {
-            due += scalar(keep) * scalar(members.size()) / scalar(samples.size());
-            const label share = label(std::lround(due)) - given;
-            given += share;
-            for (const label i : members) cube_[i] = label(spare_.size());
-            spare_.push_back(label(members.size()) - share);
-        }
-    }
-    bool spend(label i) { return spare_[cube_[i]] > 0 && spare_[cube_[i]]-- > 0; }
-
-private:
-    static constexpr scalar cubeSize = 4;
-    List<label> cube_, spare_;
+    label begin, end;  // samples that are left: a range of an order
+    label spare = 0;   // samples to drop
 };
 
-struct candidate
+constexpr scalar cubeSize = 4;  // in spacings
+constexpr label turns = 16;     // in each turn all stretches drop a part
+
+List<stretch> stretchesOf(const List<vector>& samples, const List<vector>& normals,
+                          const List<scalar>& spacing, label keep, List<label>& order)
 {
-    scalar weight;
-    label index;
-    bool operator<(const candidate& o) const
+    // the side is the first part of the key, so that a rounding rest stays on its side
+    std::map<std::array<std::int64_t, 6>, List<label>> cubes;
+    auto at = cubes.end();  // the next sample is mostly in the same cube
+    for (size_t i = 0; i < samples.size(); ++i)
     {
-        return weight < o.weight || (weight == o.weight && index < o.index);
+        std::array<std::int64_t, 6> c;
+        for (int d = 0; d < 3; ++d)
+        {
+            c[d] = std::lround(normals[i][d]);
+            c[3 + d] = std::int64_t(std::floor(samples[i][d] / (cubeSize * spacing[0])));
+        }
+        if (at == cubes.end() || at->first != c) at = cubes.try_emplace(c).first;
+        at->second.push_back(label(i));
     }
-};
+    List<stretch> all;
+    scalar due = 0;
+    label given = 0;
+    for (const auto& [c, members] : cubes)  // rounded so that the sum is exact
+    {
+        due += scalar(keep) * scalar(members.size()) / scalar(samples.size());
+        const label share = label(std::lround(due)) - given, n = label(members.size());
+        given += share;
+        all.push_back({label(order.size()), label(order.size()) + n, n - share});
+        order.insert(order.end(), members.begin(), members.end());
+    }
+    return all;
+}
+
+template <class T>
+List<T> inOrder(const List<T>& values, const List<label>& order)
+{
+    List<T> sorted;
+    for (const label i : order) sorted.push_back(values[i]);
+    return sorted;
+}
 
 }  // namespace
 
 List<label> spreadEvenly(const List<vector>& samples, const List<vector>& normals,
                          const List<scalar>& spacing, const List<halfSpace>& planes, label keep)
 {
-    const crowd all(samples, spacing, planes);
+    List<label> order;
+    List<stretch> stretches = stretchesOf(samples, normals, spacing, keep, order);
+    const crowd all(inOrder(samples, order), inOrder(spacing, order), planes);
     const label n = all.size();
     List<scalar> weight(n, 0);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i) all.around(i, [&](label, scalar w) { weight[i] += w; });
     });
-    quotas allowed(samples, normals, spacing, keep);
-    std::priority_queue<candidate> crowded;
-    for (label i = 0; i < n; ++i) crowded.push({weight[i], i});
+    List<label> left(n);
+    std::iota(left.begin(), left.end(), 0);
     List<char> gone(n, 0);
-    for (label left = n; left > keep;)
-    {
-        const candidate c = crowded.top();
-        crowded.pop();
-        if (gone[c.index]) continue;
-        if (c.weight > weight[c.index])  // it has become less crowded since it was queued
-        {
-            crowded.push({weight[c.index], c.index});
-            continue;
-        }
-        if (!allowed.spend(c.index)) continue;  // its cube has lost enough
-        gone[c.index] = 1, --left;
-        all.around(c.index, [&](label j, scalar w) { weight[j] -= gone[j] ? 0 : w; });
-    }
+    const auto dropOneOf = [&](stretch& s) {
+        const auto most = std::max_element(left.begin() + s.begin, left.begin() + s.end,
+                                           [&](label a, label b) { return weight[a] < weight[b]; });
+        const label i = *most;
+        gone[i] = 1, --s.spare;
+        *most = left[--s.end];
+        all.around(i, [&](label j, scalar w) { weight[j] -= w; });
+    };
+    for (label turn = turns; turn > 0; --turn)
+        for (stretch& s : stretches)
+            for (label k = (s.spare + turn - 1) / turn; k > 0; --k) dropOneOf(s);
     List<label> kept;
     for (label i = 0; i < n; ++i)
-        if (!gone[i]) kept.push_back(i);
+        if (!gone[i]) kept.push_back(order[i]);
+    std::sort(kept.begin(), kept.end());
     return kept;
 }
 

@@ -13,9 +13,6 @@ namespace ispf
 namespace
 {
 
-// Distance from a triangle at which its two sides are probed [dx]: beyond the sag of coarse facets, well
-// within the thinnest zone that holds a particle
-constexpr scalar probe = 0.05;
 constexpr scalar mostParticles = 5e8;  // labels, those of images included, can number so many
 
 bool isPrismEnd(const triSurface& s, label t)

@@ -21,11 +21,12 @@ List<vector> tangents(const vector& n, int nDims)
 
 }  // namespace
 
-// Makes sample points that fill the strip: they give the sums of a full strip, wherever the sites lie.  Returns their feet.
-// Beside the rim of the surface the strip reaches as far as there are sites.
-pointGrid openFace::sampleStrip(const List<vector>& sites, int nDims, const place& allowed)
+// Makes sample points that fill the strip: they give the sums of a full strip, wherever the sites lie.  Returns the
+// sums over their feet.  Beside the rim of the surface the strip reaches as far as there are sites.
+footSums openFace::sampleStrip(const List<vector>& sites, int nDims, const place& allowed)
 {
-    pointGrid known(dx_), feet(region_);
+    pointGrid known(dx_);
+    List<vector> feet;
     for (const vector& x : sites) known.add(x);
     const List<vector> points = samplesAround(sites, dx_, nDims);
     List<surfaceFoot> found(points.size());
@@ -43,19 +44,28 @@ pointGrid openFace::sampleStrip(const List<vector>& sites, int nDims, const plac
         },
         256);
     for (size_t k = 0; k < points.size(); ++k)
-        if (found[k].found) feet.add(found[k].foot), samples_.push_back({points[k], found[k].foot});
-    return feet;
+        if (found[k].found)
+            feet.push_back(found[k].foot), samples_.push_back({points[k], found[k].foot});
+    return footSums(feet, region_);
 }
 
-void openFace::addSpot(const vector& x, const surfaceFoot& f, std::uint8_t zone,
-                       const pointGrid& full)
+void openFace::addSpot(const vector& x, const surfaceFoot& f, std::uint8_t zone)
 {
-    spot s = {x, f.foot, f.normal, f.depth, 0, 0, zone};
-    full.within(f.foot, near_,
-                [&](label, scalar r) { s.fullNear += perSample_ * weight(r / near_); });
-    full.within(f.foot, region_,
-                [&](label, scalar r) { s.fullRegion += perSample_ * weight(r / region_); });
-    spots_.push_back(s), spotGrid_.add(x);
+    spots_.push_back({x, f.foot, f.normal, f.depth, 0, 0, zone}), spotGrid_.add(x);
+}
+
+void openFace::weighSpots(const footSums& full)
+{
+    parallelFor(
+        label(spots_.size()),
+        [&](label begin, label end) {
+            for (label k = begin; k < end; ++k)
+            {
+                const auto [near, region] = full.at(spots_[k].foot, {near_, region_});
+                spots_[k].fullNear = perSample_ * near, spots_[k].fullRegion = perSample_ * region;
+            }
+        },
+        64);
 }
 
 void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, const place& allowed,
@@ -76,7 +86,7 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
                              " in constant/openSites.hdf. Its normals must point out of the fluid",
                          where_);
     checkRim(kept, cloud);
-    const pointGrid full = sampleStrip(kept, cloud.nDims, allowed);
+    const footSums full = sampleStrip(kept, cloud.nDims, allowed);
     layer_ = openLayer(*deep_, kept, cloud, allowed);
     deep_.reset();
     perSample_ = 1.0 / samplesPerCell(cloud.nDims);
@@ -96,9 +106,10 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
         const auto area = areas_.try_emplace(zone, vector::Zero()).first;
         area->second += cloud.volume() / depth_ * feet[k].normal;
         // sites of the outermost layer are replaced by places at the outer end
-        if (feet[k].depth < depth_ - 0.75 * dx_) addSpot(kept[k], feet[k], zone, full);
-        addOuterSpots(feet[k], zone, cloud.nDims, {full, taken, allowed});
+        if (feet[k].depth < depth_ - 0.75 * dx_) addSpot(kept[k], feet[k], zone);
+        addOuterSpots(feet[k], zone, cloud.nDims, {taken, allowed});
     }
+    weighSpots(full);
     if (areas_.size() == 1 && !mesh_.empty()) areas_.begin()->second = mesh_.areaVector();
     checkOuterEnd(feet, taken, cloud.nDims);
 }
@@ -156,7 +167,7 @@ void openFace::addOuterSpots(const surfaceFoot& at, std::uint8_t zone, int nDims
             const vector x = f.foot + f.depth * f.normal;
             if (c.taken.nearest(x, 0.3 * dx_) < 0.3 * dx_ || !c.allowed(x, 0.35 * dx_)) continue;
             c.taken.add(x);
-            addSpot(x, f, zone, c.full);
+            addSpot(x, f, zone);
         }
 }
 

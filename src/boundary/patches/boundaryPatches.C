@@ -144,11 +144,6 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
                                                  meshOf(name, patches, caseFolder, cloud),
                                                  [&](const vector& x) { return walls.holds(x); }});
     }
-    const auto allowed = [&](const vector& x, scalar distance) {
-        for (const openFace& face : openFaces)
-            if (face.beyondStrip(x)) return false;
-        return group.beyond(x) <= -distance && walls.clear(x, distance);
-    };
     const auto beside = [&](const vector& x, scalar distance) {
         for (const auto& [point, normal] : group.symmetryPlanes())
             if ((x - point).dot(normal) > -distance) return true;
@@ -157,6 +152,12 @@ void boundary::content::addOpenFaces(const word& caseFolder, const dictionary& p
     for (openFace& face : openFaces)
     {
         const fileLocation where = patches.subDict(face.name()).where("type");
+        // applies to points in the strip of this face or before it, so the face itself is not asked
+        const auto allowed = [&](const vector& x, scalar distance) {
+            for (const openFace& other : openFaces)
+                if (&other != &face && other.beyondStrip(x)) return false;
+            return group.beyond(x) <= -distance && walls.clear(x, distance);
+        };
         face.setSites(sites.positions(face.name(), where), cloud, allowed, beside);
     }
     findRims(patches, sites, cloud.dx);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cellSamples.H"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 namespace ispf
 {
@@ -15,13 +15,22 @@ int samplesPerCell(int nDims)
 
 List<vector> samplesAround(const List<vector>& sites, scalar dx, int nDims)
 {
-    std::set<std::array<int, 3>> cells;
+    List<std::array<int, 3>> cells;
     for (const vector& x : sites)
-        for (int i = -2; i <= 2; ++i)
-            for (int j = -2; j <= 2; ++j)
-                for (int k = nDims == 3 ? -2 : 0; k <= (nDims == 3 ? 2 : 0); ++k)
-                    cells.insert({int(std::floor(x[0] / dx)) + i, int(std::floor(x[1] / dx)) + j,
-                                  nDims == 3 ? int(std::floor(x[2] / dx)) + k : 0});
+        cells.push_back({int(std::floor(x[0] / dx)), int(std::floor(x[1] / dx)),
+                         nDims == 3 ? int(std::floor(x[2] / dx)) : 0});
+    for (int d = nDims; d-- > 0;)  // adds two cells on both sides, axis by axis
+    {
+        List<std::array<int, 3>> wider;
+        for (std::array<int, 3> c : cells)
+        {
+            c[d] -= 2;
+            for (int k = 0; k < 5; ++k, ++c[d]) wider.push_back(c);
+        }
+        std::sort(wider.begin(), wider.end());
+        wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
+        cells = std::move(wider);
+    }
     const vector step = nDims == 3
                             ? vector(0.8191725133961645, 0.6710436067037893, 0.5497004779019703)
                             : vector(0.7548776662466927, 0.5698402909980532, 0);

@@ -58,14 +58,9 @@ scalar shearAnisotropy(const modulusTensor& C, int nDims)
 
 quarticTensor quartic(const vector& n)
 {
-    const scalar x = n[0], y = n[1], z = n[2], xx = x * x, yy = y * y, zz = z * z;
-    const scalar r6 = std::sqrt(6.0),
-                 r12 = std::sqrt(12.0);  // square roots of the multinomial coefficients
-    quarticTensor q;
-    q << xx * xx, yy * yy, zz * zz, 2 * xx * x * y, 2 * xx * x * z, 2 * yy * y * x, 2 * yy * y * z,
-        2 * zz * z * x, 2 * zz * z * y, r6 * xx * yy, r6 * xx * zz, r6 * yy * zz, r12 * xx * y * z,
-        r12 * yy * x * z, r12 * zz * x * y;
-    return q;
+    scalar q[15];
+    quarticComponents(n[0], n[1], n[2], q);
+    return Eigen::Map<const quarticTensor>(q);
 }
 
 quarticTensor isotropicQuartic(int nDims)

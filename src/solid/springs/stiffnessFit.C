@@ -15,6 +15,92 @@ constexpr scalar stayNear = 0.3;  // weight of (s - 1)^2 per row entry, two entr
 constexpr scalar most = 3, least = 1 / most;
 constexpr int iterations = 60;  // more than twenty change the moduli of walls by less than 1 %
 
+// A quarticTensor with one more component, a zero: four lanes of four
+struct paddedTensor
+{
+    simd4 part[4] = {};
+
+    paddedTensor() = default;
+    paddedTensor(const quarticTensor& q) { std::copy(q.data(), q.data() + q.size(), data()); }
+    scalar* data() { return reinterpret_cast<scalar*>(part); }
+    const scalar* data() const { return reinterpret_cast<const scalar*>(part); }
+    auto tensor() const { return Eigen::Map<const quarticTensor>(data()); }
+    ISPF_INLINE void add(scalar factor, const paddedTensor& other)
+    {
+        for (int k = 0; k < 4; ++k) part[k] += factor * other.part[k];
+    }
+};
+
+// Unit vectors along the links, and strength = k d0^2/(2 V G), by pair
+struct linkTable
+{
+    const referenceNeighbours& pairs;
+    List<scalar> x, y, z, strength;
+};
+
+// Four values from p on, or fewer if `last` comes first; zeros fill the rest
+ISPF_INLINE simd4 fourOf(const scalar* values, pairIndex p, pairIndex last)
+{
+    simd4 four = {};
+    if (p + 4 <= last) __builtin_memcpy(&four, values + p, sizeof four);
+    else
+        for (pairIndex k = p; k < last; ++k) four[k - p] = values[k];
+    return four;
+}
+
+ISPF_INLINE void componentsOfFour(const linkTable& links, pairIndex p, pairIndex last,
+                                  simd4 (&q)[15])
+{
+    quarticComponents(fourOf(links.x.data(), p, last), fourOf(links.y.data(), p, last),
+                      fourOf(links.z.data(), p, last), q);
+}
+
+// C_i = sum over row i of multiplier times link tensor, in units of G, minus a given tensor
+ISPF_HOT void sumTensors(const linkTable& links, const scalar* s, const paddedTensor& minus,
+                         label begin, label end, paddedTensor* C)
+{
+    for (label i = begin; i < end; ++i)
+    {
+        const auto [first, last] = rowOf<among::all>(links.pairs, i);
+        simd4 sum[15] = {}, q[15];
+        for (pairIndex p = first; p < last; p += 4)
+        {
+            const simd4 factor = fourOf(s, p, last) * fourOf(links.strength.data(), p, last);
+            componentsOfFour(links, p, last, q);
+            for (int k = 0; k < 15; ++k) sum[k] += factor * q[k];
+        }
+        for (int k = 0; k < 15; ++k)
+            C[i].data()[k] = ((sum[k][0] + sum[k][1]) + (sum[k][2] + sum[k][3])) - minus.data()[k];
+    }
+}
+
+// Sets the strength times link tensor . Q for each pair of row i
+ISPF_HOT void alongLinks(const linkTable& links, label i, const paddedTensor& Q, scalar* result)
+{
+    const auto [first, last] = rowOf<among::all>(links.pairs, i);
+    simd4 q[15];
+    for (pairIndex p = first; p < last; p += 4)
+    {
+        componentsOfFour(links, p, last, q);
+        simd4 sum = {};
+        for (int k = 0; k < 15; ++k) sum += Q.data()[k] * q[k];
+        sum *= fourOf(links.strength.data(), p, last);
+        for (pairIndex k = p; k < std::min(p + 4, last); ++k) result[k] = sum[k - p];
+    }
+}
+
+// Adds the factors times the tensors of the partners in row i.  The tensor of an image is rotated like the image
+ISPF_HOT void addPartners(const referenceNeighbours& pairs, const List<quarticRotation>& rotation,
+                          const scalar* factor, const paddedTensor* of, label i, paddedTensor& sum)
+{
+    paddedTensor total = sum;
+    forNeighbours<among::all>(pairs, i, [&](pairIndex p, label j) {
+        if (const label m = pairs.image[p]; m == 0) total.add(factor[p], of[j]);
+        else total.add(factor[p], quarticTensor(rotation[m - 1] * of[j].tensor()));
+    });
+    sum = total;
+}
+
 class fit
 {
 public:
@@ -22,22 +108,6 @@ public:
     stiffnessFitReport run();
 
 private:
-    // Sum over row i of multiplier times link tensor, in units of G
-    quarticTensor particleTensor(label i, const List<scalar>& s) const
-    {
-        quarticTensor C = quarticTensor::Zero();
-        forNeighbours<among::all>(
-            pairs_, i, [&](pairIndex p, label) { C += s[p] * strength_[p] * linkTensor(i, p); });
-        return C;
-    }
-    quarticTensor linkTensor(label i, std::int64_t p) const
-    {
-        return quartic(pairs_.separation(ref_, i, p).normalized());
-    }
-    quarticTensor turned(std::int64_t p, const quarticTensor& C) const
-    {
-        return pairs_.image[p] ? quarticTensor(rotation_[pairs_.image[p] - 1] * C) : C;
-    }
     void scale();
     void tensors(const List<scalar>& s, const quarticTensor& minus);
     void localMean();
@@ -49,10 +119,11 @@ private:
     const quarticTensor target_;
     List<scalar>& k_;
     List<std::int64_t> reverse_;
-    List<scalar> strength_;  // k d0^2/(2 V G)
-    List<scalar> weight_, weightSum_;
+    linkTable links_;
+    List<scalar> weight_, weightSum_,
+        share_;  // share: weight of the pair over the sum of the partner
     List<quarticRotation> rotation_;
-    List<quarticTensor> C_, mean_;
+    List<paddedTensor> C_, mean_;
     List<scalar> half_;
 };
 
@@ -62,9 +133,11 @@ fit::fit(const structureReference& ref, const referenceNeighbours& pairs, scalar
       target_(isotropicQuartic(ref.nDims)),
       k_(k),
       reverse_(pairs.reverse(ref)),
-      strength_(k.size()),
+      links_{pairs, List<scalar>(k.size()), List<scalar>(k.size()), List<scalar>(k.size()),
+             List<scalar>(k.size())},
       weight_(k.size()),
       weightSum_(ref.n(), 1),
+      share_(k.size()),
       C_(ref.n()),
       mean_(ref.n()),
       half_(k.size())
@@ -76,10 +149,15 @@ fit::fit(const structureReference& ref, const referenceNeighbours& pairs, scalar
             reach = std::max(reach, pairs.separation(ref, i, p).norm());
         });
     forPairs<among::all>(pairs, 0, ref.n(), [&](label i, pairIndex p, label) {
-        const scalar d = pairs.separation(ref, i, p).norm(), q = 1 - d / (1.001 * reach);
+        const vector apart = pairs.separation(ref, i, p), n = apart.normalized();
+        const scalar d = apart.norm(), q = 1 - d / (1.001 * reach);
+        links_.x[p] = n[0], links_.y[p] = n[1], links_.z[p] = n[2];
         weight_[p] = q * q * (3 - 2 * q);
         weightSum_[i] += weight_[p];
-        strength_[p] = k[p] * d * d / (2 * ref.volume() * G);
+        links_.strength[p] = k[p] * d * d / (2 * ref.volume() * G);
+    });
+    forPairs<among::all>(pairs, 0, ref.n(), [&](label, pairIndex p, label j) {
+        share_[p] = weight_[p] / weightSum_[j];
     });
     scale();
 }
@@ -89,18 +167,17 @@ void fit::scale()
 {
     tensors(List<scalar>(k_.size(), 1), quarticTensor::Zero());
     scalar along = 0, square = 0;
-    for (const quarticTensor& C : C_) along += C.dot(target_), square += C.squaredNorm();
+    for (const paddedTensor& C : C_)
+        along += C.tensor().dot(target_), square += C.tensor().squaredNorm();
     const scalar factor = along / square;
-    for (size_t p = 0; p < k_.size(); ++p) k_[p] *= factor, strength_[p] *= factor;
+    for (size_t p = 0; p < k_.size(); ++p) k_[p] *= factor, links_.strength[p] *= factor;
 }
 
 void fit::tensors(const List<scalar>& s, const quarticTensor& minus)
 {
     parallelFor(
         ref_.n(),
-        [&](label begin, label end) {
-            for (label i = begin; i < end; ++i) C_[i] = particleTensor(i, s) - minus;
-        },
+        [&](label begin, label end) { sumTensors(links_, s.data(), minus, begin, end, C_.data()); },
         256);
 }
 
@@ -111,11 +188,10 @@ void fit::localMean()
         [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
             {
-                mean_[i] = C_[i];
-                forNeighbours<among::all>(pairs_, i, [&](pairIndex p, label j) {
-                    mean_[i] += weight_[p] * turned(p, C_[j]);
-                });
-                mean_[i] /= weightSum_[i];
+                paddedTensor mean = C_[i];
+                addPartners(pairs_, rotation_, weight_.data(), C_.data(), i, mean);
+                mean_[i] = paddedTensor();
+                mean_[i].add(1 / weightSum_[i], mean);
             }
         },
         256);
@@ -129,13 +205,10 @@ void fit::gradient(List<scalar>& g)
         [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
             {
-                quarticTensor Q = mean_[i] / weightSum_[i];
-                forNeighbours<among::all>(pairs_, i, [&](pairIndex p, label j) {
-                    Q += weight_[p] / weightSum_[j] * turned(p, mean_[j]);
-                });
-                forNeighbours<among::all>(pairs_, i, [&](pairIndex p, label) {
-                    half_[p] = strength_[p] * linkTensor(i, p).dot(Q);
-                });
+                paddedTensor Q;
+                Q.add(1 / weightSum_[i], mean_[i]);
+                addPartners(pairs_, rotation_, share_.data(), mean_.data(), i, Q);
+                alongLinks(links_, i, Q, half_.data());
             }
         },
         256);
@@ -191,7 +264,7 @@ stiffnessFitReport fit::run()
     }
     tensors(s, target_);
     localMean();
-    for (const quarticTensor& r : mean_) report.residual += r.squaredNorm();
+    for (const paddedTensor& r : mean_) report.residual += r.tensor().squaredNorm();
     report.residual = std::sqrt(report.residual / scalar(mean_.size())) / target_.norm();
     return report;
 }
