@@ -78,16 +78,10 @@ void particleCloud::sortFluid(scalar cellSize)
     for (label i = nSolid_; i < n_; ++i)
         low = low.cwiseMin(x[i].xyz()), high = high.cwiseMax(x[i].xyz());
     const auto cell = [&](label i, int d) { return std::int64_t((x[i][d] - low[d]) / cellSize); };
-    const auto nCells = [&](int d) { return std::int64_t((high[d] - low[d]) / cellSize) + 1; };
-    constexpr std::int64_t tile = 8;  // edge of a column's section in cells (doc/constants.md)
-    const std::int64_t nx = nCells(0) / tile + 1, nz = nCells(2);
+    const std::int64_t nx = std::int64_t((high[0] - low[0]) / cellSize) + 1;
+    const std::int64_t ny = std::int64_t((high[1] - low[1]) / cellSize) + 1;
     List<std::int64_t> key(n_);
-    for (label i = nSolid_; i < n_; ++i)
-    {
-        const std::int64_t X = cell(i, 0), Y = cell(i, 1);
-        const std::int64_t column = Y / tile * nx + X / tile;
-        key[i] = ((column * nz + cell(i, 2)) * tile + Y % tile) * tile + X % tile;
-    }
+    for (label i = nSolid_; i < n_; ++i) key[i] = (cell(i, 2) * ny + cell(i, 1)) * nx + cell(i, 0);
     List<label> order(nFluid);
     std::iota(order.begin(), order.end(), nSolid_);
     std::stable_sort(order.begin(), order.end(), [&](label a, label b) { return key[a] < key[b]; });
