@@ -6,12 +6,13 @@ namespace ispf
 {
 
 std::unique_ptr<structureModel> newSpringNetwork(const dictionary&, const structureReference&);
+std::unique_ptr<structureModel> newTotalLagrangian(const dictionary&, const structureReference&);
 
 std::unique_ptr<structureModel> structureModel::New(const dictionary& dict,
                                                     const structureReference& ref)
 {
     if (dict.empty()) return nullptr;
-    const word model = dict.choose("structureModel", {"springNetwork"});
+    const word model = dict.choose("structureModel", {"springNetwork", "totalLagrangian"});
     // one projection serves both media: a density jump would need a variable-density one
     if (dict.found("rho") && std::abs(dict.get<scalar>("rho", dims::density) / ref.rho - 1) > 1e-6)
         dict.fail("rho", "the solid's density must equal the fluid's, " + str(ref.rho) +
@@ -19,6 +20,7 @@ std::unique_ptr<structureModel> structureModel::New(const dictionary& dict,
                              "Leave the entry out, or change the fluid's");
     std::unique_ptr<structureModel> made;
     if (model == "springNetwork") made = newSpringNetwork(dict, ref);
+    else made = newTotalLagrangian(dict, ref);
     dict.checkAllRead();
     return made;
 }

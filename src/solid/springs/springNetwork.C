@@ -92,8 +92,6 @@ public:
     void stress(const List<vec4>& x, List<tensor>& tau) const override;
     blockMatrix3 tangentPattern() const override { return pattern_; }
     void assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const override;
-    scalar maxLinkForce(const List<vec4>& x) const override;
-    linkStrain strain(const List<vec4>& x) const override;
     List<label> linkCounts() const override;
     word description() const override { return summary_; }
 
@@ -106,9 +104,6 @@ private:
         const vector xj = x[links_.index[p]].xyz();
         return x[i].xyz() - (links_.image[p] ? ref_.images[links_.image[p] - 1](xj) : xj);
     }
-    // Largest value(d, d0, k) over all links
-    template <class Value>
-    scalar largest(const List<vec4>& x, const Value& value) const;
 
     linkTable links_;
     blockMatrix3 pattern_;
@@ -201,30 +196,6 @@ void springNetwork::assembleTangent(const List<vec4>& x, tangentKind kind, block
             for (label i = begin; i < end; ++i) tangentRow(x, kind == tangentKind::positive, i, K);
         },
         256);
-}
-
-template <class Value>
-scalar springNetwork::largest(const List<vec4>& x, const Value& value) const
-{
-    return maxOf(n(), [&](label begin, label end) {
-        scalar most = -std::numeric_limits<scalar>::infinity();
-        for (label i = begin; i < end; ++i)
-            forNeighbours<among::all>(links_, i, [&](pairIndex p, label) {
-                most = std::max(most, value(separation(x, i, p).norm(), links_.d0[p], links_.k[p]));
-            });
-        return most;
-    });
-}
-
-scalar springNetwork::maxLinkForce(const List<vec4>& x) const
-{
-    return largest(x, [](scalar d, scalar d0, scalar k) { return k * std::abs(d - d0); });
-}
-
-linkStrain springNetwork::strain(const List<vec4>& x) const
-{
-    return {-largest(x, [](scalar d, scalar d0, scalar) { return 1 - d / d0; }),
-            largest(x, [](scalar d, scalar d0, scalar) { return d / d0 - 1; })};
 }
 
 List<label> springNetwork::linkCounts() const

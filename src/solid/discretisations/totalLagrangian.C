@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Structure model of any material on the deformation gradient of the rest neighbours, theory 5.8.  Its energy is
+//
+//     Psi = sum_k [V W(F_k) + (c_k/2) sum_a w_a |e_a|^2],   e_a = x_a - x_k - F_k R_a                     (5.19)
+//
+// The second part controls the motions that no F_k sees.  Entries:
+//
+//     material { type neoHookean; E 1.5e6; }      // see material.H
+//     zeroEnergy 0.1;                             // alpha: weight of the second part, over that of G
+#include "forPairs.H"
+#include "stencilTangent.H"
+#include "structureModel.H"
+
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+// C^+ of section 5.8: the nearest matrix without negative eigenvalues
+modulusMatrix positivePart(const modulusMatrix& C)
+{
+    const Eigen::SelfAdjointEigenSolver<modulusMatrix> eigen(C);
+    return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+           eigen.eigenvectors().transpose();
+}
+
+// Removes the components across the plane of a two-dimensional solid
+void keepPlane(modulusMatrix& C)
+{
+    for (const int across : {2, 5, 6, 7, 8}) C.row(across).setZero(), C.col(across).setZero();
+}
+
+class totalLagrangian : public structureModel
+{
+public:
+    totalLagrangian(const dictionary& dict, const structureReference& ref)
+        : structureModel(ref),
+          material_(material::New(dict.subDict("material"))),
+          zeroEnergy_(dict.getInRangeOrDefault("zeroEnergy", 0, 10, 0.1)),
+          pairs_(gradient_.neighbours())
+    {
+        G_ = material_->shearModulus();
+        findActive();
+        setMoments();
+        tangent_ = std::make_unique<stencilTangent>(ref_, gradient_, active_);
+    }
+
+    void force(const List<vec4>& x, List<vec4>& f) const override;
+    scalar energy(const List<vec4>& x) const override;
+    void stress(const List<vec4>& x, List<tensor>& tau) const override;
+    blockMatrix3 tangentPattern() const override { return tangent_->pattern(); }
+    void assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const override;
+    List<label> linkCounts() const override;
+    word description() const override;
+
+private:
+    void findActive();
+    void setMoments();
+
+    // x_a - x_k of a pair in the row of k
+    vector bond(const List<vec4>& x, label k, std::int64_t p) const
+    {
+        const vector xa = x[pairs_.index[p]].xyz();
+        return (pairs_.image[p] ? ref_.images[pairs_.image[p] - 1](xa) : xa) - x[k].xyz();
+    }
+    // e_a of (5.19)
+    vector missed(const List<vec4>& x, const tensor& F, label k, std::int64_t p) const
+    {
+        return bond(x, k, p) + F * pairs_.separation(ref_, k, p);
+    }
+    modulusMatrix modulus(const tensor& F, tangentKind kind, label k) const;
+
+    const std::unique_ptr<material> material_;
+    const scalar zeroEnergy_;  // alpha of (5.20)
+    const referenceNeighbours& pairs_;
+    List<char> active_;    // per k: it or one of its neighbours is free
+    List<tensor> moment_;  // M_k [m^2]
+    List<scalar> star_;    // c_k of (5.20), zero where k is not active
+    std::unique_ptr<stencilTangent> tangent_;
+};
+
+void totalLagrangian::findActive()
+{
+    for (label k = 0; k < n(); ++k)
+        active_.push_back(!ref_.fixed[k] ||
+                          anyNeighbour<among::all>(
+                              pairs_, k, [&](pairIndex, label j) { return !ref_.fixed[j]; }));
+}
+
+void totalLagrangian::setMoments()
+{
+    for (label k = 0; k < n(); ++k)
+    {
+        tensor M = gradient_.inverseMoment(k).inverse();
+        if (ref_.nDims == 2) M(2, 2) = 0;
+        moment_.push_back(M);
+        star_.push_back(active_[k] ? zeroEnergy_ * G_ * ref_.volume() * ref_.nDims / M.trace() : 0);
+    }
+}
+
+// (5.22)
+void totalLagrangian::force(const List<vec4>& x, List<vec4>& f) const
+{
+    List<tensor> P;
+    gradient_.apply(x, P);
+    parallelFor(
+        n(),
+        [&](label begin, label end) {
+            for (label k = begin; k < end; ++k)
+                P[k] = active_[k] ? tensor(material_->stress(P[k]) -
+                                           star_[k] / ref_.volume() * P[k] * moment_[k])
+                                  : tensor(tensor::Zero());
+        },
+        256);
+    gradient_.forces(P, f);
+    forPairs<among::all>(pairs_, 0, n(), [&](label i, pairIndex p, label j) {
+        f[i].s += vec4::from((star_[i] + star_[j]) * gradient_.weight(p) * bond(x, i, p)).s;
+    });
+}
+
+scalar totalLagrangian::energy(const List<vec4>& x) const
+{
+    List<tensor> F;
+    gradient_.apply(x, F);
+    return parallelSum(n(), [&](label begin, label end) {
+        scalar sum = 0;
+        for (label k = begin; k < end; ++k)
+        {
+            if (!active_[k]) continue;
+            sum += ref_.volume() * material_->energy(F[k]);
+            forNeighbours<among::all>(pairs_, k, [&](pairIndex p, label) {
+                sum += 0.5 * star_[k] * gradient_.weight(p) * missed(x, F[k], k, p).squaredNorm();
+            });
+        }
+        return sum;
+    });
+}
+
+// (5.24)
+void totalLagrangian::stress(const List<vec4>& x, List<tensor>& tau) const
+{
+    List<tensor> F;
+    gradient_.apply(x, F);
+    tau.assign(size_t(n()), tensor::Zero());
+    parallelFor(
+        n(),
+        [&](label begin, label end) {
+            for (label k = begin; k < end; ++k)
+            {
+                if (!active_[k]) continue;
+                tau[k] = material_->stress(F[k]) * F[k].transpose();
+                forNeighbours<among::all>(pairs_, k, [&](pairIndex p, label) {
+                    const vector e = missed(x, F[k], k, p);
+                    tau[k] += star_[k] / ref_.volume() * gradient_.weight(p) * e * e.transpose();
+                });
+            }
+        },
+        256);
+}
+
+// C' of (5.23)
+modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label k) const
+{
+    modulusMatrix C = material_->tangent(F);
+    if (ref_.nDims == 2) keepPlane(C);
+    if (kind == tangentKind::positive) C = positivePart(C);
+    C *= ref_.volume();
+    for (int c = 0; c < ref_.nDims; ++c)
+        for (int d = 0; d < ref_.nDims; ++d)
+            for (int r = 0; r < ref_.nDims; ++r)
+                C(r + 3 * c, r + 3 * d) -= star_[k] * moment_[k](c, d);
+    return C;
+}
+
+void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const
+{
+    List<tensor> F;
+    gradient_.apply(x, F);
+    List<modulusMatrix> C(size_t(n()));
+    parallelFor(
+        n(),
+        [&](label begin, label end) {
+            for (label k = begin; k < end; ++k)
+                if (active_[k]) C[k] = modulus(F[k], kind, k);
+        },
+        64);
+    tangent_->assemble(C, star_, K);
+}
+
+List<label> totalLagrangian::linkCounts() const
+{
+    List<label> count;
+    for (label k = 0; k < n(); ++k) count.push_back(active_[k] ? pairs_.count(k) : 0);
+    return count;
+}
+
+word totalLagrangian::description() const
+{
+    return "totalLagrangian, " + material_->description() + ", G " + str(G_, 4) + " Pa, E = 3 G " +
+           str(3 * G_, 4) + " Pa, " + str(scalar(pairs_.nPairs()) / n(), 3) +
+           " neighbours per particle, zeroEnergy " + str(zeroEnergy_, 3);
+}
+
+}  // namespace
+
+std::unique_ptr<structureModel> newTotalLagrangian(const dictionary& dict,
+                                                   const structureReference& ref)
+{
+    return std::make_unique<totalLagrangian>(dict, ref);
+}
+
+}  // namespace ispf

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "homogeneousMotion.H"
+#include "execution.H"
+#include "structureChecks.H"
+
+#include <doctest/doctest.h>
+
+using namespace ispf;
+using namespace ispf::test;
+
+namespace
+{
+
+const scalar G = 1e6;
+const word rubber = "material { type neoHookean; G 1e6; }";
+
+std::unique_ptr<structureModel> lagrangian(const structureReference& ref,
+                                           const word& entries = rubber)
+{
+    return structureModel::New(dictionary::fromString("structureModel totalLagrangian; " + entries),
+                               ref);
+}
+
+scalar leastEigenvalue(const Eigen::MatrixXd& A)
+{
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> s(A, Eigen::EigenvaluesOnly);
+    return s.eigenvalues().minCoeff() / s.eigenvalues().maxCoeff();
+}
+
+// Neighbours on a lattice move against each other: no gradient sees it
+List<vec4> alternating(const structureReference& ref, scalar amplitude)
+{
+    List<vec4> x = atRest(ref);
+    for (vec4& v : x)
+    {
+        const vector cell = v.xyz() / ref.dx;
+        const int sum = int(std::floor(cell[0])) + int(std::floor(cell[1]));
+        v[0] += sum % 2 ? amplitude : -amplitude;
+    }
+    return x;
+}
+
+List<structureReference> bodies()
+{
+    return {latticeBlock(5, 4, 4), disorderedBlock(5, 4, 4), latticeBlock(7, 5, 0)};
+}
+
+}  // namespace
+
+TEST_CASE("homogeneous motions without change of volume have the exact stress of the material")
+{
+    for (const structureReference& ref :
+         {disorderedBlock(5, 5, 5), latticeBlock(6, 6, 0), triangularBlock(7, 7)})
+        for (const word& name : homogeneousMotions(ref.nDims))
+            for (const scalar lambda : {0.6, 0.9, 1.05, 1.5, 2.0})
+            {
+                CAPTURE(name);
+                CAPTURE(lambda);
+                const auto model = lagrangian(ref);
+                const homogeneousMotion motion =
+                    motionOf(name, frameAlong(vector(2, 1, 0)), ref.nDims, lambda);
+                const List<char> inside(size_t(ref.n()), 1);
+                CHECK(nominalStress(*model, motion, inside) ==
+                      doctest::Approx(G * motion.neoHooke).epsilon(1e-10));
+            }
+}
+
+TEST_CASE("nothing acts at rest and after a rigid motion")
+{
+    for (const structureReference& ref : bodies())
+    {
+        const auto model = lagrangian(ref);
+        const vector axis = ref.nDims == 2 ? vector(0, 0, 1) : vector(1, 2, 3).normalized();
+        const tensor R = Eigen::AngleAxisd(1.1, axis).toRotationMatrix();
+        const scalar unit = G * ref.volume() / ref.dx;
+        List<vec4> f;
+        for (const List<vec4>& x : {atRest(ref), affine(ref, R, vector(0.1, 0.2, 0) * ref.dx)})
+        {
+            model->force(x, f);
+            CHECK(largest(f) < 1e-12 * unit);
+            CHECK(std::abs(model->energy(x)) < 1e-12 * unit * ref.dx);
+        }
+        CHECK(model->shearModulus() == G);
+    }
+}
+
+TEST_CASE(
+    "the force is the slope of the energy, balances in force and moment, and its virial is V sum "
+    "tau")
+{
+    for (const structureReference& ref : bodies())
+    {
+        const auto model = lagrangian(ref);
+        const List<vec4> x = shaken(ref, 0.2 * ref.dx);
+        CHECK(forceError(*model, x) < 1e-7);
+        List<vec4> f;
+        List<tensor> tau;
+        model->force(x, f);
+        model->stress(x, tau);
+        vector sum = vector::Zero(), moment = vector::Zero();
+        tensor virial = tensor::Zero(), stress = tensor::Zero();
+        scalar size = 0;
+        for (size_t i = 0; i < f.size(); ++i)
+        {
+            sum += f[i].xyz(), moment += x[i].xyz().cross(f[i].xyz());
+            virial -= f[i].xyz() * x[i].xyz().transpose(), stress += ref.volume() * tau[i];
+            size += f[i].xyz().norm();
+        }
+        CHECK(sum.norm() < 1e-14 * size);
+        CHECK(moment.norm() < 1e-14 * size * 5 * ref.dx);
+        if (ref.nDims == 2) stress.col(2).setZero(), stress.row(2).setZero();
+        CHECK((virial - stress).norm() < 1e-12 * stress.norm());
+    }
+}
+
+TEST_CASE(
+    "the full tangent is the slope of the force, within the pattern; the positive one has no "
+    "negative eigenvalue")
+{
+    List<structureReference> all = bodies();
+    all.push_back(quarter(symmetricBody(1e-3), vector::Zero()));
+    for (const structureReference& ref : all)
+    {
+        const auto model = lagrangian(ref);
+        List<vec4> x = shaken(ref, 0.15 * ref.dx);
+        for (vec4& v : x) v.s *= simd4{0.8, 1.3, 1, 1};  // keeps the symmetry planes through 0
+        CHECK(tangentError(*model, x) < 1e-7);
+        blockMatrix3 K = model->tangentPattern();
+        model->assembleTangent(x, tangentKind::full, K);
+        const Eigen::MatrixXd full = dense(K);
+        CHECK((full - full.transpose()).norm() < 1e-13 * full.norm());
+        CHECK(leastEigenvalue(full) < -1e-5);
+        model->assembleTangent(x, tangentKind::positive, K);
+        const Eigen::MatrixXd used = dense(K);
+        CHECK((used - used.transpose()).norm() < 1e-13 * used.norm());
+        CHECK(leastEigenvalue(used) > -1e-12);
+        CHECK(leastEigenvalue(used - full) > -1e-12);  // K >= H, section 7.2
+    }
+}
+
+TEST_CASE("a motion that no gradient sees has energy and a force against it")
+{
+    for (const structureReference& ref : {latticeBlock(6, 6, 5), latticeBlock(8, 8, 0)})
+    {
+        const scalar a = 0.01 * ref.dx;
+        const List<vec4> x = alternating(ref, a);
+        List<tensor> F;
+        const auto model = lagrangian(ref, rubber + "zeroEnergy 0.2;");
+        model->deformationGradient(x, F);
+        const label middle = ref.nDims == 3 ? (2 * 6 + 3) * 6 + 3 : 3 * 8 + 3;
+        CHECK((F[middle] - tensor::Identity()).norm() < 1e-12);
+        List<vec4> f;
+        model->force(x, f);
+        const scalar way = x[middle][0] - ref.x0[middle][0];
+        // most of the weight is that of the nearest neighbours, which move by 2 a
+        CHECK(f[middle][0] * way < -0.2 * G * ref.volume() * way * way / (ref.dx * ref.dx));
+        // the energy is proportional to the entry
+        const auto twice = lagrangian(ref, rubber + "zeroEnergy 0.4;");
+        const auto none = lagrangian(ref, rubber + "zeroEnergy 0;");
+        const scalar without = none->energy(x), once = model->energy(x) - without;
+        CHECK(once > 1e-5 * G * ref.volume() * ref.n());
+        CHECK(twice->energy(x) - without == doctest::Approx(2 * once).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("a quarter between two symmetry planes is a quarter of the whole, its tangent too")
+{
+    const structureReference whole = symmetricBody(1e-3), part = quarter(whole, vector::Zero());
+    const auto all = lagrangian(whole), one = lagrangian(part);
+    const List<vec4> x = shaken(part, 0.2 * part.dx);
+    List<vec4> y(x);
+    for (const vector& sign : {vector(-1, 1, 1), vector(1, -1, 1), vector(-1, -1, 1)})
+        for (const vec4& v : x) y.push_back(vec4::from(sign.cwiseProduct(v.xyz())));
+    List<vec4> f, g;
+    one->force(x, f);
+    all->force(y, g);
+    for (label i = 0; i < part.n(); ++i)
+        CHECK((f[i].xyz() - g[i].xyz()).norm() < 1e-9 * largest(g));
+    CHECK(4 * one->energy(x) == doctest::Approx(all->energy(y)).epsilon(1e-9));
+    CHECK(forceError(*one, x) < 1e-6);
+    blockMatrix3 K = one->tangentPattern(), wholeK = all->tangentPattern();
+    one->assembleTangent(x, tangentKind::positive, K);
+    all->assembleTangent(y, tangentKind::positive, wholeK);
+    for (label i = 0; i < part.n(); ++i)
+        CHECK((K.diagonal[i] - wholeK.diagonal[i]).norm() < 1e-9 * K.diagonal[i].norm());
+}
+
+TEST_CASE("a sector whose images are turned pulls like the ring")
+{
+    isometry turn;
+    const structureReference ref = ringSector(turn);
+    structureReference ring = ref;
+    ring.images.clear(), ring.x0.clear();
+    const List<vec4> x = shaken(ref, 0.1 * ref.dx);
+    List<vec4> y;
+    isometry image;
+    for (int copy = 0; copy < 4; ++copy, image.R = turn.R * image.R)
+        for (label i = 0; i < ref.n(); ++i)
+            ring.x0.push_back(image(ref.x0[i])), y.push_back(vec4::from(image(x[i].xyz())));
+    ring.fixed.assign(ring.x0.size(), 0);
+    const auto sector = lagrangian(ref), whole = lagrangian(ring);
+    List<vec4> f, g;
+    sector->force(x, f);
+    whole->force(y, g);
+    for (label i = 0; i < ref.n(); ++i) CHECK((f[i].xyz() - g[i].xyz()).norm() < 1e-9 * largest(g));
+    CHECK(forceError(*sector, x) < 1e-6);
+    CHECK(tangentError(*sector, x) < 1e-7);
+}
+
+TEST_CASE("particles among clamped ones alone are left out, towards free ones nothing is")
+{
+    structureReference ref = latticeBlock(4, 4, 7);
+    for (label i = 0; i < ref.n(); ++i) ref.fixed[i] = ref.x0[i][2] < 4 * ref.dx;
+    const auto model = lagrangian(ref);
+    List<vec4> x = shaken(ref, 0.1 * ref.dx), f;
+    CHECK(forceError(*model, x) < 1e-7);
+    CHECK(model->linkCounts()[0] == 0);
+    CHECK(model->linkCounts().back() > 20);
+    // the lowest layer acts on nothing that the points near free particles do not see
+    const auto unclamped = [&] {
+        structureReference free = ref;
+        free.fixed.assign(ref.x0.size(), 0);
+        return lagrangian(free);
+    }();
+    List<vec4> g;
+    model->force(x, f);
+    unclamped->force(x, g);
+    for (label i = 0; i < ref.n(); ++i)
+        if (!ref.fixed[i]) CHECK((f[i].xyz() - g[i].xyz()).norm() < 1e-12 * largest(g));
+}
+
+TEST_CASE("results do not depend on the number of threads")
+{
+    const structureReference ref = latticeBlock(8, 8, 9);
+    setThreads(1);
+    const auto one = lagrangian(ref);
+    const List<vec4> x = shaken(ref, 0.1 * ref.dx);
+    List<vec4> f, g;
+    one->force(x, f);
+    const scalar energy = one->energy(x), step = one->stableTimeStep(x, 1e-6);
+    setThreads(2);
+    const auto two = lagrangian(ref);
+    two->force(x, g);
+    CHECK(flat(f, 3) == flat(g, 3));
+    CHECK(two->energy(x) == energy);
+    CHECK(two->stableTimeStep(x, 1e-6) == step);
+    setThreads(0);
+}
+
+TEST_CASE("wrong entries of totalLagrangian are refused with what is valid")
+{
+    const auto error = [](const word& entries) {
+        return errorOf([&] { lagrangian(latticeBlock(4, 4, 4), entries); });
+    };
+    CHECK(error("").find("material") != word::npos);
+    CHECK(error(rubber + "zeroEnergy -1;").find("0") != word::npos);
+    CHECK(error(rubber + "links radius;").find("links") != word::npos);
+    CHECK(error("material { type neoHookean; G 1e6; nu 0.5; }").find("nu") != word::npos);
+}
