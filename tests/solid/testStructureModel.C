@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "errorOf.H"
 #include "execution.H"
 #include "solidMotions.H"
 
@@ -23,19 +24,6 @@ scalar growth(const structureModel& model, scalar mass, scalar dt, int steps)
         for (size_t i = 0; i < x.size(); ++i) v[i].s += dt / mass * f[i].s, x[i].s += dt * v[i].s;
     }
     return model.energy(x) / start;
-}
-
-word errorOf(const std::function<void()>& action)
-{
-    try
-    {
-        action();
-    }
-    catch (const fatalError& e)
-    {
-        return e.what();
-    }
-    return "";
 }
 
 bool contains(const word& text, const word& part)

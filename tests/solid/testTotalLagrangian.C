@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "homogeneousMotion.H"
+#include "errorOf.H"
 #include "execution.H"
+#include "homogeneousMotion.H"
 #include "structureChecks.H"
 
 #include <doctest/doctest.h>
@@ -215,7 +216,7 @@ TEST_CASE("particles among clamped ones alone are left out, towards free ones no
     List<vec4> x = shaken(ref, 0.1 * ref.dx), f;
     CHECK(forceError(*model, x) < 1e-7);
     CHECK(model->linkCounts()[0] == 0);
-    CHECK(model->linkCounts().back() > 20);
+    CHECK(model->linkCounts().back() > 15);
     // the lowest layer acts on nothing that the points near free particles do not see
     const auto unclamped = [&] {
         structureReference free = ref;

@@ -179,7 +179,7 @@ void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, blo
 {
     List<tensor> F;
     gradient_.apply(x, F);
-    List<modulusMatrix> C(size_t(n()));
+    List<modulusMatrix> C(active_.size());
     parallelFor(
         n(),
         [&](label begin, label end) {
