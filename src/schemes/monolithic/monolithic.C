@@ -10,12 +10,14 @@
 //         volumeFeedback 0.1;   // share of J - 1 of the solid removed per step; the volume ledger books it
 //         divergenceDefect yes; // the next step corrects what the rates of a step miss: for the area of the surface,
 //                               // see enclosedFluid.H; for the volume of a solid that turns, volumeConstraint.H
+//         newton { maxIter 1; tolerance 1e-5; }    // see elasticStep.H
 //         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
 //     }
 //     shifting { ... }     densityFeedback 0;
 #include "closedBodies.H"
 #include "couplingScheme.H"
 #include "densityFeedback.H"
+#include "elasticStep.H"
 #include "FGMRES.H"
 #include "monolithicPreconditioner.H"
 #include "particleShifting.H"
@@ -44,12 +46,14 @@ constexpr scalar resolved = 5;
 struct monolithicEntries
 {
     monolithicPreconditioner::entries preconditioner;
+    elasticStep::entries newton;
     scalar theta, alpha, tolerance, absTolerance;
     label maxIter;
     bool makesGood;
 
     monolithicEntries(const dictionary& dict, bool hasSolid)
         : preconditioner(dict),
+          newton(dict.subOrEmptyDict("newton")),
           theta(dict.getInRangeOrDefault("theta", 0, 1, hasSolid ? 0.95 : 0)),
           alpha(dict.getInRangeOrDefault("volumeFeedback", 0, 1, 0.1)),
           tolerance(dict.getInRangeOrDefault("tolerance", 1e-14, 0.1, 1e-4)),
@@ -58,7 +62,7 @@ struct monolithicEntries
           makesGood(dict.getOrDefault("divergenceDefect", true))
     {
         if (hasSolid) return;
-        for (const char* entry : {"theta", "volumeFeedback", "divergenceDefect", "solid"})
+        for (const char* entry : {"theta", "volumeFeedback", "divergenceDefect", "solid", "newton"})
             if (dict.found(entry))
                 dict.fail(entry, "It acts on a solid, and this case has none. Leave it away");
     }
@@ -77,6 +81,7 @@ public:
         : couplingScheme(c),
           system_(c),
           preconditioner_(system_, e.preconditioner),
+          elastic_(c.structure.get(), e.newton),
           theta_(e.theta),
           alpha_(e.alpha),
           tolerance_(e.tolerance),
@@ -92,8 +97,7 @@ public:
         system_.enclosed().makeGood(makesGood_);
         if (!c.structure) return;
         c.cloud.scalars[missedField].resize(c.cloud.n(), 0);
-        K_ = c.structure->tangentPattern();
-        preconditioner_.restore(K_);
+        preconditioner_.restore(elastic_.tangent());
         volume_ = std::make_unique<volumeConstraint>(*c.structure);
     }
 
@@ -113,6 +117,7 @@ private:
     void account(scalar dt);
     void addWay(scalar dt);
     word solve(scalar dt, List<scalar>& z);
+    word pass(FGMRES& solver, List<scalar>& b, List<scalar>& z);
     void keepContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt);
     scalar velocityScale() const;
     scalar cellReynolds(scalar speed) const;
@@ -120,6 +125,7 @@ private:
 
     coupledSystem system_;
     monolithicPreconditioner preconditioner_;
+    elasticStep elastic_;
     scalar theta_, alpha_, tolerance_, absTolerance_;
     label maxIter_;
     timeScheme time_;
@@ -130,11 +136,9 @@ private:
     std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
     List<tensor> F_;
-    List<vec4> springsAt_, springForce_;
     List<scalar> q_;      // sources of the step [1/s]
     List<scalar> left_;   // residual of continuity after the solution [1/s]
     List<scalar> ahead_;  // J that the first step of DLN corrects in advance, else empty [1]
-    blockMatrix3 K_;
 };
 
 scalar monolithic::velocityScale() const
@@ -164,10 +168,8 @@ couplingScheme::stepLimit monolithic::admitted() const
 void monolithic::structureState()
 {
     if (!c_.structure) return;
-    springsAt_ = time_.elasticStart(c_.cloud);
+    elastic_.begin(time_.elasticStart(c_.cloud), time_.tau());
     c_.structure->deformationGradient(c_.cloud.x, F_);
-    c_.structure->force(springsAt_, springForce_);
-    c_.structure->assembleTangent(springsAt_, tangentKind::positive, K_);
     const List<isometry>& images = c_.structure->reference().images;
     surface_.initialise(c_.cloud, c_.list, F_, images);
     volume_->setup(F_);
@@ -268,38 +270,49 @@ word monolithic::solve(scalar dt, List<scalar>& z)
 {
     const particleCloud& cloud = c_.cloud;
     List<scalar>& q = q_;
-    List<scalar> b;
     q.assign(cloud.n(), 0);
     for (label i = 0; i < cloud.nSolid(); ++i) q[i] = feedback(i, dt) + missed(i, dt);
     for (label i = cloud.nSolid(); i < cloud.n() && !c_.source.empty(); ++i)
         q[i] = c_.source[cloud.zone[i]];
     ahead_.clear();
     if (time_.wellStarts()) addWay(dt);
-    if (c_.structure) system_.setup(time_.tau(), volume_.get(), &surface_, &K_);
+    if (c_.structure) system_.setup(time_.tau(), volume_.get(), &surface_, &elastic_.tangent());
     else system_.setup(time_.tau(), nullptr, nullptr, nullptr);
     if (density_.on() && !c_.walls->hasCyclic())
         density_.addTo(q, system_.rows().pair(),
                        drainedFluid(cloud, c_.list, system_.enclosed().bodyOf()), dt);
     system_.enclosed().addDefect(q);
-    preconditioner_.setup(springsAt_);
-    system_.rightHandSide(theta_, springForce_, q, b);
+    preconditioner_.setup(elastic_.start());
 
     z = guess();
     solverControls controls;
+    const scalar least = rounding(time_.tau(), z);
     controls.tolerance = 0, controls.relTol = tolerance_, controls.maxIter = maxIter_;
-    controls.absTol = std::sqrt(scalar(cloud.n())) *
-                      std::max(absTolerance_ * velocityScale(), rounding(time_.tau(), z));
+    controls.absTol =
+        std::sqrt(scalar(cloud.n())) * std::max(absTolerance_ * velocityScale(), least);
     FGMRES solver(controls, "Up", maxIter_);
-    const solverPerformance result = solver.solve(system_, preconditioner_, b, z);
-    system_.enclosed().keepLevel(cloud, z);
-    result.print();
+    List<scalar> b;
+    word fails;
+    do fails = pass(solver, b, z);
+    while (fails.empty() && elastic_.iterates() &&
+           elastic_.again(z, system_.diagonal(), cloud, least));
     keepContinuityErrors(b, z, dt);
+    return fails.empty() ? elastic_.failure() : fails;
+}
+
+// One pass of (7.7): sets b, and improves z.  Returns an empty text or the reason why the step cannot be accepted
+word monolithic::pass(FGMRES& solver, List<scalar>& b, List<scalar>& z)
+{
+    system_.rightHandSide(theta_, elastic_.force(), q_, b);
+    const solverPerformance result = solver.solve(system_, preconditioner_, b, z);
+    system_.enclosed().keepLevel(c_.cloud, z);
+    result.print();
     // measured: steps stay stable with far less reduction than the tolerance, but not without any
     if (!result.converged && !(result.finalResidual < 100 * tolerance_ * result.initialResidual))
         return "the coupled system did not converge (residual " + str(result.finalResidual, 3) +
                " of " + str(result.initialResidual, 3) + " after " +
                std::to_string(result.nIterations) + " iterations), worst at " +
-               cloud.describe(worstRow(system_, b, z) / 4);
+               c_.cloud.describe(worstRow(system_, b, z) / 4);
     return "";
 }
 
@@ -346,7 +359,8 @@ word monolithic::attempt(scalar t, scalar dt)
     });
     if (!fails.empty()) return fails;
     accept(z);
-    energy_.weigh(time_.weight(), [&] { system_.book(start, theta_, springForce_, q_, energy_); });
+    energy_.weigh(time_.weight(),
+                  [&] { system_.book(start, theta_, elastic_.force(), q_, energy_); });
     if (outletsDiffer(time_.tau())) return outletsAsk;
     if (const word reason = tooFar(dt); !reason.empty()) return reason;
     account(dt);

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "elasticStep.H"
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+namespace ispf
+{
+
+elasticStep::entries::entries(const dictionary& dict)
+    : maxIter(dict.getInRangeOrDefault<label>("maxIter", 1, 100, 1)),
+      tolerance(dict.getInRangeOrDefault("tolerance", 1e-12, 0.1, 1e-5))
+{
+}
+
+elasticStep::elasticStep(const structureModel* structure, const entries& e)
+    : structure_(structure), entries_(e)
+{
+    if (structure) K_ = structure->tangentPattern();
+}
+
+void elasticStep::begin(List<vec4> x0, scalar tau)
+{
+    x0_ = std::move(x0), tau_ = tau, pass_ = 0, first_ = last_ = 0;
+    structure_->force(x0_, force_);
+    structure_->assembleTangent(x0_, tangentKind::positive, K_);
+}
+
+// Moves the iterate to the end of the step, and returns the root of the mean square of d/A over the free solid
+scalar elasticStep::residual(const List<scalar>& z, const List<scalar>& A,
+                             const particleCloud& cloud)
+{
+    const label n = structure_->n();
+    x_ = x0_, u_.resize(n), Ku_.resize(n);
+    for (label i = 0; i < n; ++i)
+    {
+        u_[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], 0};
+        x_[i].s += tau_ * u_[i].s;
+    }
+    structure_->force(x_, f_);
+    K_.apply(u_, Ku_);
+    scalar sum = 0;
+    label nFree = 0;
+    for (label i = 0; i < n; ++i)
+    {
+        if (cloud.uFixed[i]) continue;
+        const simd4 d = f_[i].s - force_[i].s + tau_ * Ku_[i].s;
+        sum += vec4{d}.xyz().squaredNorm() / (A[i] * A[i]), ++nFree;
+    }
+    return std::sqrt(sum / std::max<label>(nFree, 1));
+}
+
+bool elasticStep::again(const List<scalar>& z, const List<scalar>& A, const particleCloud& cloud,
+                        scalar least)
+{
+    last_ = residual(z, A, cloud);
+    if (++pass_ == 1) first_ = last_;
+    scalar speed = 0;
+    for (size_t k = 0; k < z.size(); k += 4)
+        speed = std::max(speed, vector(z[k], z[k + 1], z[k + 2]).norm());
+    const scalar limit = std::max(entries_.tolerance * speed, least);
+    info() << "Newton: pass " << pass_ << ", residual " << str(last_, 3) << " m/s of "
+           << str(limit, 3) << "\n";
+    if (last_ <= limit || pass_ == entries_.maxIter) return false;
+    structure_->assembleTangent(x_, tangentKind::positive, K_);
+    K_.apply(u_, Ku_);
+    for (label i = 0; i < structure_->n(); ++i) force_[i].s = f_[i].s + tau_ * Ku_[i].s;
+    return true;
+}
+
+word elasticStep::failure() const
+{
+    if (!(last_ > first_) && std::isfinite(last_)) return "";
+    return "Newton's method for the solid does not converge (residual " + str(first_, 3) +
+           " m/s after the first pass, " + str(last_, 3) + " after pass " + std::to_string(pass_) +
+           ")";
+}
+
+}  // namespace ispf
