@@ -1,111 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The coupled system compared with a direct solution, and a thick ring inflated by its inner fluid
 #include "FGMRES.H"
-#include "caseOnDisk.H"
+#include "elasticRing.H"
 #include "luSolver.H"
 #include "monolithicPreconditioner.H"
 #include "coupledSystem.H"
 #include "relative.H"
-#include "triSurface.H"
 
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
 
 using namespace ispf;
+using namespace ispf::elasticRing;
 
 namespace
 {
 
-constexpr scalar dx = 0.1, innerRadius = 1, outerRadius = 1.4, openRadius = 1.8;
-// The source is smooth and ends before the wall, because the divergence spreads a jump.  Rings of
-// width 1/nRings have one value each.  Beyond the end of the source there is one zone: a solid particle sees at most two.
-constexpr int nRings = 12, lastRing = 9;
-constexpr int ringZone = 2;  // first of them
-scalar profile(int ring)
+word ofModulus(scalar G)
 {
-    const scalar r = (ring + 0.5) / nRings / 0.75;
-    return r < 1 ? std::pow(1 - r * r, 2) : 0;
+    return "structureModel springNetwork; E " + str(3 * G, 17) + "; links radius; radius 2.6;";
 }
-
-// Disc of fluid, elastic ring, and buffer fluid whose outermost layers lie beyond an open circle
-class ringCase
-{
-public:
-    ringCase(const word& name, scalar shearModulus) : files(name)
-    {
-        place();
-        files.control =
-            "startTime 0; endTime 100; deltaT 0.01; writeControl timeStep; "
-            "writeInterval 1e6;";
-        files.solution = "coupling monolithic;";
-        files.properties = "rho 1; mu 1.3;";
-        files.boundary = "outside { type open; p 0; }";
-        files.write();
-        setContent(files.path() + "/constant/structureProperties",
-                   "structureModel springNetwork; E " + str(3 * shearModulus, 17) +
-                       "; links radius; radius 2.6;");
-        writeOpenCircle();
-    }
-    caseOnDisk files;
-
-private:
-    void place()
-    {
-        particleTable& t = files.particles();
-        // solids first
-        for (const int pass : {1, 0})
-            for (int j = -20; j < 20; ++j)
-                for (int i = -20; i < 20; ++i)
-                {
-                    const vector x((i + 0.5) * dx, (j + 0.5) * dx, 0);
-                    const scalar r = x.norm();
-                    const bool solid = r > innerRadius && r < outerRadius;
-                    if (r > openRadius + 2 * dx || solid != (pass == 1)) continue;
-                    t.x.push_back(x);
-                    t.vectors["U"].push_back(vector::Zero()), t.scalars["p"].push_back(0);
-                    t.integers["id"].push_back(globalId(t.x.size()) - 1);
-                    t.integers["zone"].push_back(
-                        solid             ? 0
-                        : r < innerRadius ? ringZone + std::min(int(r * nRings), lastRing)
-                                          : 1);
-                    if (r > openRadius) sites_.push_back(x);
-                }
-        t.setAttribute("dx", dx), t.setAttribute("nDims", 2);
-        t.attributes["zones"] = zones();
-        t.attributes["phases"] = "solid fluid";
-        for (int k = 0; k < nRings; ++k) t.attributes["phases"] += " fluid";
-    }
-    static word zones()
-    {
-        word names = "wall buffer";
-        for (int k = 0; k < nRings; ++k) names += " ring" + std::to_string(k);
-        return names;
-    }
-    void writeOpenCircle()
-    {
-        triSurface s;
-        const label patch = s.addPatch("outside");
-        for (int k = 0; k < 96; ++k)
-        {
-            const auto at = [](int q, scalar z) {
-                return vector(openRadius * std::cos(q * M_PI / 48),
-                              openRadius * std::sin(q * M_PI / 48), z * dx);
-            };
-            s.add(at(k, -0.5), at(k + 1, -0.5), at(k + 1, 0.5), patch);
-            s.add(at(k, -0.5), at(k + 1, 0.5), at(k, 0.5), patch);
-        }
-        std::filesystem::create_directories(files.path() + "/constant/triSurface");
-        writeSTL(s, files.path() + "/constant/triSurface/outside.stl");
-        particleTable t;
-        t.x = sites_;
-        t.integers["patch"].assign(sites_.size(), 0), t.integers["zone"].assign(sites_.size(), 1);
-        t.attributes["patches"] = "outside", t.attributes["zones"] = zones();
-        t.setAttribute("dx", dx), t.setAttribute("nDims", 2), t.setAttribute("time", 0);
-        writeParticles(t, files.path() + "/constant/openSites.hdf");
-    }
-    List<vector> sites_;
-};
 
 // Mean of r^2 - R^2 over the layer of solids with rest radius in [from, to]
 scalar areaChange(const particleCloud& cloud, scalar from, scalar to)
@@ -128,25 +43,6 @@ struct inflated
     scalar pressure;      // of the inner fluid over the law of such a ring
 };
 
-// Pressure difference over a ring of incompressible neo-Hookean material in plane strain whose inner area
-// has grown by dA: the integral of (lambda^2 - lambda^-2) G dr/r
-scalar neoHookean(scalar G, scalar dA)
-{
-    const auto stretch = [&](scalar R) { return std::sqrt(1 + dA / (M_PI * R * R)); };
-    const scalar in = stretch(innerRadius), out = stretch(outerRadius);
-    return G * (std::log(in / out) + 0.5 * (1 / (out * out) - 1 / (in * in)));
-}
-
-// Mean pressure of the inner fluid, relative to the zero of the open circle
-scalar innerPressure(const particleCloud& cloud)
-{
-    scalar sum = 0;
-    label n = 0;
-    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        if (cloud.zone[i] >= ringZone) sum += cloud.Up[i][3], ++n;
-    return sum / n;
-}
-
 // The modulus that springs of few layers reach, from their description: 0.978 of the requested one with four
 scalar modulusOf(const structureModel& structure)
 {
@@ -158,26 +54,16 @@ scalar modulusOf(const structureModel& structure)
 inflated inflate(const word& name, scalar courant, const word& feedback)
 {
     constexpr scalar dt = 0.01, stroke = 0.25 * M_PI * innerRadius * innerRadius;
-    ringCase ring(name, std::pow(courant * dx / dt, 2));
+    ringCase ring(name, ofModulus(std::pow(courant * dx / dt, 2)));
     setContent(ring.files.path() + "/system/sphSolution",
                "coupling monolithic; monolithic { volumeFeedback " + feedback + "; }");
     capturedLog log;
     Time time(ring.files.path());
     fsiCase c(time);
     const auto scheme = couplingScheme::New(c);
-    List<scalar> area(nRings, 0);  // every particle keeps its volume, whatever the source adds
-    for (label i = 0; i < c.cloud.n(); ++i)
-        if (c.cloud.zone[i] >= ringZone) area[c.cloud.zone[i] - ringZone] += dx * dx;
     for (int step = 0; step < 50; ++step)
     {
-        scalar weight = 0;
-        for (int k = 0; k < nRings; ++k) weight += area[k] * profile(k);
-        c.source.assign(c.cloud.zones.size(), 0);
-        for (int k = 0; k < nRings; ++k)
-        {
-            const scalar q = stroke / 50 / dt * profile(k) / weight;
-            c.source[ringZone + k] = q;
-        }
+        addArea(c, stroke / 50 / dt);
         runSteps(c, *scheme, dt, 1);
     }
     List<tensor> F;
@@ -220,7 +106,7 @@ struct firstStep
 
 TEST_CASE("the coupled system solved by FGMRES agrees with a direct solution")
 {
-    const ringCase ring("monolithicDirect", 1e4);
+    const ringCase ring("monolithicDirect", ofModulus(1e4));
     firstStep first(ring);
     fsiCase& c = first.c;
     coupledSystem& system = first.system;
@@ -257,7 +143,7 @@ TEST_CASE("the coupled system solved by FGMRES agrees with a direct solution")
 TEST_CASE(
     "what the surface's areas miss over a step is put in in the next, within the ring and evenly")
 {
-    const ringCase ring("enclosedRing", 1e4);
+    const ringCase ring("enclosedRing", ofModulus(1e4));
     firstStep first(ring);
     fsiCase& c = first.c;
     enclosedFluid& enclosed = first.system.enclosed();

@@ -6,7 +6,8 @@
 // The second part controls the motions that no F_k sees.  Entries:
 //
 //     material { type neoHookean; E 1.5e6; }      // see material.H
-//     zeroEnergy 0.1;                             // alpha: weight of the second part, over that of G
+//     zeroEnergy 0.2;                             // alpha: weight of the second part, over that of G
+//     radius     1.6;                             // reach of the neighbours of F_k [dx]
 #include "forPairs.H"
 #include "stencilTangent.H"
 #include "structureModel.H"
@@ -33,19 +34,28 @@ void keepPlane(modulusMatrix& C)
     for (const int across : {2, 5, 6, 7, 8}) C.row(across).setZero(), C.col(across).setZero();
 }
 
+structureReference within(structureReference ref, scalar radius)
+{
+    // includes a shell of lattice neighbours at exactly the radius
+    ref.support = radius * ref.dx * (1 + 1e-6);
+    return ref;
+}
+
 class totalLagrangian : public structureModel
 {
 public:
     totalLagrangian(const dictionary& dict, const structureReference& ref)
         : structureModel(ref),
           material_(material::New(dict.subDict("material"))),
-          zeroEnergy_(dict.getInRangeOrDefault("zeroEnergy", 0, 10, 0.1)),
-          pairs_(gradient_.neighbours())
+          zeroEnergy_(dict.getInRangeOrDefault("zeroEnergy", 0, 10, 0.2)),
+          near_(within(ref_, dict.getInRangeOrDefault("radius", 1.2, 4, 1.6))),
+          fit_(near_),
+          pairs_(fit_.neighbours())
     {
         G_ = material_->shearModulus();
         findActive();
         setMoments();
-        tangent_ = std::make_unique<stencilTangent>(ref_, gradient_, active_);
+        tangent_ = std::make_unique<stencilTangent>(ref_, fit_, active_);
     }
 
     void force(const List<vec4>& x, List<vec4>& f) const override;
@@ -75,6 +85,8 @@ private:
 
     const std::unique_ptr<material> material_;
     const scalar zeroEnergy_;  // alpha of (5.20)
+    const structureReference near_;  // the solid at rest, with neighbours up to `radius`
+    const referenceGradient fit_;    // F of the energy
     const referenceNeighbours& pairs_;
     List<char> active_;    // per k: it or one of its neighbours is free
     List<tensor> moment_;  // M_k [m^2]
@@ -94,7 +106,7 @@ void totalLagrangian::setMoments()
 {
     for (label k = 0; k < n(); ++k)
     {
-        tensor M = gradient_.inverseMoment(k).inverse();
+        tensor M = fit_.inverseMoment(k).inverse();
         if (ref_.nDims == 2) M(2, 2) = 0;
         moment_.push_back(M);
         star_.push_back(active_[k] ? zeroEnergy_ * G_ * ref_.volume() * ref_.nDims / M.trace() : 0);
@@ -105,7 +117,7 @@ void totalLagrangian::setMoments()
 void totalLagrangian::force(const List<vec4>& x, List<vec4>& f) const
 {
     List<tensor> P;
-    gradient_.apply(x, P);
+    fit_.apply(x, P);
     parallelFor(
         n(),
         [&](label begin, label end) {
@@ -115,16 +127,16 @@ void totalLagrangian::force(const List<vec4>& x, List<vec4>& f) const
                                   : tensor(tensor::Zero());
         },
         256);
-    gradient_.forces(P, f);
+    fit_.forces(P, f);
     forPairs<among::all>(pairs_, 0, n(), [&](label i, pairIndex p, label j) {
-        f[i].s += vec4::from((star_[i] + star_[j]) * gradient_.weight(p) * bond(x, i, p)).s;
+        f[i].s += vec4::from((star_[i] + star_[j]) * fit_.weight(p) * bond(x, i, p)).s;
     });
 }
 
 scalar totalLagrangian::energy(const List<vec4>& x) const
 {
     List<tensor> F;
-    gradient_.apply(x, F);
+    fit_.apply(x, F);
     return parallelSum(n(), [&](label begin, label end) {
         scalar sum = 0;
         for (label k = begin; k < end; ++k)
@@ -132,7 +144,7 @@ scalar totalLagrangian::energy(const List<vec4>& x) const
             if (!active_[k]) continue;
             sum += ref_.volume() * material_->energy(F[k]);
             forNeighbours<among::all>(pairs_, k, [&](pairIndex p, label) {
-                sum += 0.5 * star_[k] * gradient_.weight(p) * missed(x, F[k], k, p).squaredNorm();
+                sum += 0.5 * star_[k] * fit_.weight(p) * missed(x, F[k], k, p).squaredNorm();
             });
         }
         return sum;
@@ -143,7 +155,7 @@ scalar totalLagrangian::energy(const List<vec4>& x) const
 void totalLagrangian::stress(const List<vec4>& x, List<tensor>& tau) const
 {
     List<tensor> F;
-    gradient_.apply(x, F);
+    fit_.apply(x, F);
     tau.assign(size_t(n()), tensor::Zero());
     parallelFor(
         n(),
@@ -154,7 +166,7 @@ void totalLagrangian::stress(const List<vec4>& x, List<tensor>& tau) const
                 tau[k] = material_->stress(F[k]) * F[k].transpose();
                 forNeighbours<among::all>(pairs_, k, [&](pairIndex p, label) {
                     const vector e = missed(x, F[k], k, p);
-                    tau[k] += star_[k] / ref_.volume() * gradient_.weight(p) * e * e.transpose();
+                    tau[k] += star_[k] / ref_.volume() * fit_.weight(p) * e * e.transpose();
                 });
             }
         },
@@ -178,7 +190,7 @@ modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label 
 void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const
 {
     List<tensor> F;
-    gradient_.apply(x, F);
+    fit_.apply(x, F);
     List<modulusMatrix> C(active_.size());
     parallelFor(
         n(),

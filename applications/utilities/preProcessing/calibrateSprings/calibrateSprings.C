@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Measures the stiffness of the links of constant/structureProperties: tension of slabs and cubes along several
+// Measures the stiffness of constant/structureProperties: tension of slabs and cubes along several
 // directions, on a lattice and on disordered particles, and of the case's own body.
 //
 // Each body is free and incompressible and carries a uniaxial stress (uniformStressTest).  Mean stress s and
@@ -193,7 +193,8 @@ int run(int argc, char** argv)
     }
     if (!args.found("bodyOnly"))
         for (const bool disordered : {false, true})
-            if (!disordered || properties.get<word>("links") == "radius")
+            if (!disordered || !properties.found("links") ||
+                properties.get<word>("links") == "radius")
                 for (const sample& s : blocks(nDims, layersAsked(args), disordered))
                     samples.push_back(s);
 
