@@ -216,7 +216,7 @@ TEST_CASE("particles among clamped ones alone are left out, towards free ones no
     List<vec4> x = shaken(ref, 0.1 * ref.dx), f;
     CHECK(forceError(*model, x) < 1e-7);
     CHECK(model->linkCounts()[0] == 0);
-    CHECK(model->linkCounts().back() > 15);
+    CHECK(model->linkCounts().back() > 5);
     // the lowest layer acts on nothing that the points near free particles do not see
     const auto unclamped = [&] {
         structureReference free = ref;

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Structure model of any material on the deformation gradient of the rest neighbours, theory 5.8.  Its energy is
 //
-//     Psi = sum_k [V W(F_k) + (c_k/2) sum_a w_a |e_a|^2],   e_a = x_a - x_k - F_k R_a                     (5.19)
+//     Psi = sum_k [V W(F_k) + V (kappa/2) (J_k - 1)^2 + (c_k/2) sum_a w_a |e_a|^2]                        (5.19)
+//     e_a = x_a - x_k - F_k R_a
 //
-// The second part controls the motions that no F_k sees.  Entries:
+// The second part controls changes of volume that the constraint does not see, the third one motions that no F_k sees.
+// Entries:
 //
 //     material { type neoHookean; E 1.5e6; }      // see material.H
-//     zeroEnergy 0.2;                             // alpha: weight of the second part, over that of G
-//     radius     1.6;                             // reach of the neighbours of F_k [dx]
+//     zeroEnergy 0.2;                             // alpha: weight of the third part, over that of G
+//     radius     1.75;                            // reach of the neighbours of F_k [dx]
 #include "forPairs.H"
 #include "stencilTangent.H"
 #include "structureModel.H"
+#include "volumeStiffness.H"
 
 #include <cmath>
 
@@ -19,6 +22,9 @@ namespace ispf
 
 namespace
 {
+
+// kappa of (5.20) over G
+constexpr scalar volumeShare = 1;
 
 // C^+ of section 5.8: the nearest matrix without negative eigenvalues
 modulusMatrix positivePart(const modulusMatrix& C)
@@ -48,11 +54,12 @@ public:
         : structureModel(ref),
           material_(material::New(dict.subDict("material"))),
           zeroEnergy_(dict.getInRangeOrDefault("zeroEnergy", 0, 10, 0.2)),
-          near_(within(ref_, dict.getInRangeOrDefault("radius", 1.2, 4, 1.6))),
+          near_(within(ref_, dict.getInRangeOrDefault("radius", 1.2, 4, 1.75))),
           fit_(near_),
           pairs_(fit_.neighbours())
     {
         G_ = material_->shearModulus();
+        volume_.kappa = volumeShare * G_;
         findActive();
         setMoments();
         tangent_ = std::make_unique<stencilTangent>(ref_, fit_, active_);
@@ -81,10 +88,13 @@ private:
     {
         return bond(x, k, p) + F * pairs_.separation(ref_, k, p);
     }
+    // dW/dF of the first two parts of (5.19)
+    tensor stressOf(const tensor& F) const { return material_->stress(F) + volume_.stress(F); }
     modulusMatrix modulus(const tensor& F, tangentKind kind, label k) const;
 
     const std::unique_ptr<material> material_;
-    const scalar zeroEnergy_;  // alpha of (5.20)
+    volumeStiffness volume_;
+    const scalar zeroEnergy_;        // alpha of (5.20)
     const structureReference near_;  // the solid at rest, with neighbours up to `radius`
     const referenceGradient fit_;    // F of the energy
     const referenceNeighbours& pairs_;
@@ -122,9 +132,9 @@ void totalLagrangian::force(const List<vec4>& x, List<vec4>& f) const
         n(),
         [&](label begin, label end) {
             for (label k = begin; k < end; ++k)
-                P[k] = active_[k] ? tensor(material_->stress(P[k]) -
-                                           star_[k] / ref_.volume() * P[k] * moment_[k])
-                                  : tensor(tensor::Zero());
+                P[k] = active_[k]
+                           ? tensor(stressOf(P[k]) - star_[k] / ref_.volume() * P[k] * moment_[k])
+                           : tensor(tensor::Zero());
         },
         256);
     fit_.forces(P, f);
@@ -142,7 +152,7 @@ scalar totalLagrangian::energy(const List<vec4>& x) const
         for (label k = begin; k < end; ++k)
         {
             if (!active_[k]) continue;
-            sum += ref_.volume() * material_->energy(F[k]);
+            sum += ref_.volume() * (material_->energy(F[k]) + volume_.energy(F[k]));
             forNeighbours<among::all>(pairs_, k, [&](pairIndex p, label) {
                 sum += 0.5 * star_[k] * fit_.weight(p) * missed(x, F[k], k, p).squaredNorm();
             });
@@ -163,7 +173,7 @@ void totalLagrangian::stress(const List<vec4>& x, List<tensor>& tau) const
             for (label k = begin; k < end; ++k)
             {
                 if (!active_[k]) continue;
-                tau[k] = material_->stress(F[k]) * F[k].transpose();
+                tau[k] = stressOf(F[k]) * F[k].transpose();
                 forNeighbours<among::all>(pairs_, k, [&](pairIndex p, label) {
                     const vector e = missed(x, F[k], k, p);
                     tau[k] += star_[k] / ref_.volume() * fit_.weight(p) * e * e.transpose();
@@ -176,7 +186,7 @@ void totalLagrangian::stress(const List<vec4>& x, List<tensor>& tau) const
 // C' of (5.23)
 modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label k) const
 {
-    modulusMatrix C = material_->tangent(F);
+    modulusMatrix C = material_->tangent(F) + volume_.tangent(F);
     if (ref_.nDims == 2) keepPlane(C);
     if (kind == tangentKind::positive) C = positivePart(C);
     C *= ref_.volume();
