@@ -13,7 +13,8 @@ using namespace ispf::test;
 namespace
 {
 
-const std::map<word, word> samples = {{"neoHookean", "E 1.5e6;"}};
+const std::map<word, word> samples = {{"neoHookean", "E 1.5e6;"},
+                                      {"Yeoh", "c1 2e5; c2 -1e4; c3 2e3;"}};
 
 List<std::unique_ptr<material>> all()
 {
@@ -125,7 +126,24 @@ TEST_CASE("a wrong material: the message lists the valid types and ranges")
     CHECK(error("type neoHookean; E 3; G 1;").find("exactly one of E") != word::npos);
     CHECK(error("type neoHookean; E -3;").find("1e-12") != word::npos);
     CHECK(error("type neoHookean; G 0;").find("1e-12") != word::npos);
+    CHECK(error("type Yeoh; c1 -1;").find("1e-12") != word::npos);
+    CHECK(error("type Yeoh; c1 1; c2 -2; c3 1;").find("c2^2 below 3 c1 c3") != word::npos);
+    CHECK(error("type Yeoh; c1 1; c2 -1;").find("c2^2 below 3 c1 c3") != word::npos);
     CHECK(error("E 1e6;").find("type") != word::npos);
     CHECK(material::New(dictionary::fromString("type neoHookean; E 3 [kPa];"))->shearModulus() ==
           doctest::Approx(1000).epsilon(1e-14));
+}
+
+TEST_CASE("Yeoh without c2 and c3 is neoHookean; with them it stiffens as its law says")
+{
+    const auto law = [](const word& text) { return material::New(dictionary::fromString(text)); };
+    const auto plain = law("type Yeoh; c1 2e5;"), neo = law("type neoHookean; G 4e5;");
+    for (const tensor& F : gradients())
+        CHECK((plain->stress(F) - neo->stress(F)).norm() < 1e-13 * (4e5 + neo->stress(F).norm()));
+    // uniaxial stretch 2: i = 4 + 1 - 3, nominal stress 2 w'(i) (2 - 1/4)
+    const vector stretch(2, std::sqrt(0.5), std::sqrt(0.5));
+    const tensor P = law("type Yeoh; c1 2e5; c2 1e4; c3 2e3;")->stress(stretch.asDiagonal());
+    const scalar slope = 2e5 + 2e4 * 2 + 6e3 * 4;
+    CHECK(P(0, 0) - P(1, 1) * stretch[1] / 2 ==
+          doctest::Approx(2 * slope * (2 - 0.25)).epsilon(1e-12));
 }

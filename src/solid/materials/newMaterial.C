@@ -10,6 +10,7 @@ namespace ispf
 using madeMaterial = std::unique_ptr<material>;
 
 madeMaterial newNeoHookean(const dictionary&);
+madeMaterial newYeoh(const dictionary&);
 
 namespace
 {
@@ -17,7 +18,7 @@ namespace
 using maker = madeMaterial (*)(const dictionary&);
 const std::map<word, maker>& table()
 {
-    static const std::map<word, maker> all = {{"neoHookean", newNeoHookean}};
+    static const std::map<word, maker> all = {{"neoHookean", newNeoHookean}, {"Yeoh", newYeoh}};
     return all;
 }
 
