@@ -187,8 +187,11 @@ void totalLagrangian::stress(const List<vec4>& x, List<tensor>& tau) const
 modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label k) const
 {
     modulusMatrix C = material_->tangent(F) + volume_.tangent(F);
-    if (ref_.nDims == 2) keepPlane(C);
+    const bool plane = ref_.nDims == 2;
+    if (plane) keepPlane(C);
     if (kind == tangentKind::positive) C = positivePart(C);
+    // its rounding would couple the plane with the direction across it, where nothing but inertia resists
+    if (plane) keepPlane(C);
     C *= ref_.volume();
     for (int c = 0; c < ref_.nDims; ++c)
         for (int d = 0; d < ref_.nDims; ++d)
