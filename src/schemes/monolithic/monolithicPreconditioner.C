@@ -68,9 +68,8 @@ void monolithicPreconditioner::buildLaplacian()
     const fsiCase& c = system_.fsi();
     const particleCloud& cloud = c.cloud;
     const label n = cloud.n();
-    const List<scalar> stiffness = system_.rows().pair().stiffness();
     const auto tau = [&](label i) {
-        return cloud.isFluid(i) ? stiffness[i] * system_.dt() / c.rho : system_.tau()[i];
+        return cloud.isFluid(i) ? system_.dt() / c.rho : system_.tau()[i];
     };
 
     // Row i: sum_j -2 F_ij tau_ij (p_i - p_j).  Images count for their source, rigid neighbours are left out
