@@ -126,6 +126,7 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
         feet.push_back(f), kept.push_back(x);
         betweenWalls_ = betweenWalls_ || beside(f.foot - 0.5 * dx_ * f.normal, 0.75 * dx_);
     }
+    if (feet.empty() && isCovered(allowed)) throw covered(cloud.nDims);
     if (feet.empty())
         throw fatalError("Open patch " + name_ + " has no site within " + str(depth_ / dx_) +
                              " dx beyond its surface, of " + std::to_string(sites.size()) +
@@ -160,8 +161,27 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
     checkOuterEnd(feet, taken, cloud.nDims);
 }
 
-// fatalError if no particle can be put at the outer end of the strip.  A wall continues past the rim; if an opening lies
-// flush in a curved wall, the wall covers the whole outer end, and nothing could enter
+// True if no place at the outer end of the strip is free.  A wall continues past the rim; if an opening lies flush in a
+// curved wall, the wall covers the whole outer end, and nothing could enter
+bool openFace::isCovered(const place& allowed) const
+{
+    const triSurface& s = mesh_.surface();
+    for (label t = 0; t < s.size(); ++t)
+        if (allowed(s.centre(t) + depth_ * s.areaVector(t).normalized(), 0)) return false;
+    return !mesh_.empty();
+}
+
+fatalError openFace::covered(int nDims) const
+{
+    return fatalError(
+        "Open patch " + name_ + ": its walls, continued past its rim, cover all of the strip " +
+            str(depth_ / dx_) + " dx beyond it, so that nothing could enter" + widthInWords(nDims) +
+            ". Take half the dx, or prolong the vessel before the opening by " +
+            str(depth_ / dx_ + 1) + " dx",
+        where_);
+}
+
+// fatalError if no particle can be put at the outer end of the strip
 void openFace::checkOuterEnd(const List<surfaceFoot>& feet, const pointGrid& places,
                              int nDims) const
 {
@@ -169,12 +189,7 @@ void openFace::checkOuterEnd(const List<surfaceFoot>& feet, const pointGrid& pla
             return places.any(f.foot + depth_ * f.normal, 0.75 * dx_);
         }))
         return;
-    throw fatalError(
-        "Open patch " + name_ + ": its walls, continued past its rim, cover all of the strip " +
-            str(depth_ / dx_) + " dx beyond it, so that nothing could enter" + widthInWords(nDims) +
-            ". Take half the dx, or prolong the vessel before the opening by " +
-            str(depth_ / dx_ + 1) + " dx",
-        where_);
+    throw covered(nDims);
 }
 
 // A solid that holds the fluid before the face must also hold the fluid in the strip
