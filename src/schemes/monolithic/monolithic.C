@@ -10,7 +10,7 @@
 //         volumeFeedback 0.1;   // share of J - 1 of the solid removed per step; the volume ledger books it
 //         divergenceDefect yes; // the next step corrects what the rates of a step miss: for the area of the surface,
 //                               // see enclosedFluid.H; for the volume of a solid that turns, volumeConstraint.H
-//         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
+//         beta 1; multigrid {..}
 //     }
 //     shifting { ... }     densityFeedback 0;
 #include "closedBodies.H"
@@ -58,7 +58,7 @@ struct monolithicEntries
           makesGood(dict.getOrDefault("divergenceDefect", true))
     {
         if (hasSolid) return;
-        for (const char* entry : {"theta", "volumeFeedback", "divergenceDefect", "solid"})
+        for (const char* entry : {"theta", "volumeFeedback", "divergenceDefect"})
             if (dict.found(entry))
                 dict.fail(entry, "It acts on a solid, and this case has none. Leave it away");
     }
@@ -93,14 +93,12 @@ public:
         if (!c.structure) return;
         c.cloud.scalars[missedField].resize(c.cloud.n(), 0);
         K_ = c.structure->tangentPattern();
-        preconditioner_.restore(K_);
         volume_ = std::make_unique<volumeConstraint>(*c.structure);
     }
 
 private:
     stepLimit admitted() const override;
     word attempt(scalar t, scalar dt) override;
-    void keep() override { preconditioner_.keep(c_.cloud); }
     word advice() const override;
 
     void structureState();
@@ -130,7 +128,7 @@ private:
     std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
     List<tensor> F_;
-    List<vec4> springsAt_, springForce_;
+    List<vec4> springForce_;
     List<scalar> q_;      // sources of the step [1/s]
     List<scalar> left_;   // residual of continuity after the solution [1/s]
     List<scalar> ahead_;  // J that the first step of DLN corrects in advance, else empty [1]
@@ -164,10 +162,10 @@ couplingScheme::stepLimit monolithic::admitted() const
 void monolithic::structureState()
 {
     if (!c_.structure) return;
-    springsAt_ = time_.elasticStart(c_.cloud);
+    const List<vec4> at = time_.elasticStart(c_.cloud);
     c_.structure->deformationGradient(c_.cloud.x, F_);
-    c_.structure->force(springsAt_, springForce_);
-    c_.structure->assembleTangent(springsAt_, tangentKind::positive, K_);
+    c_.structure->force(at, springForce_);
+    c_.structure->assembleTangent(at, tangentKind::positive, K_);
     const List<isometry>& images = c_.structure->reference().images;
     surface_.initialise(c_.cloud, c_.list, F_, images);
     volume_->setup(F_);
@@ -281,7 +279,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
         density_.addTo(q, system_.rows().pair(),
                        drainedFluid(cloud, c_.list, system_.enclosed().bodyOf()), dt);
     system_.enclosed().addDefect(q);
-    preconditioner_.setup(springsAt_);
+    preconditioner_.setup();
     system_.rightHandSide(theta_, springForce_, q, b);
 
     z = guess();

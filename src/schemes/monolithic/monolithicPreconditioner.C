@@ -4,20 +4,8 @@
 namespace ispf
 {
 
-namespace
-{
-
-// Share of the Laplacian's solution that the solid takes.  There D A^-1 G is stiffer than the pair
-// Laplacian with the diagonal of A.  The whole solution (1) costs more iterations in every step of the HCC,
-// none (0) more in the first steps
-constexpr scalar solidShare = 0.3;
-
-const word solidFactor = "solidFactor";
-
-}  // namespace
-
 monolithicPreconditioner::entries::entries(const dictionary& dict)
-    : beta(dict.getInRangeOrDefault("beta", 0, 10, 1)), solid(dict.subOrEmptyDict("solid"))
+    : beta(dict.getInRangeOrDefault("beta", 0, 10, 1))
 {
     // One V-cycle costs FGMRES least
     multigrid.cycle = "V", multigrid.omega = 1.2;
@@ -25,11 +13,11 @@ monolithicPreconditioner::entries::entries(const dictionary& dict)
 }
 
 monolithicPreconditioner::monolithicPreconditioner(const coupledSystem& system, const entries& e)
-    : system_(system), options_(e.multigrid), beta_(e.beta), solid_(e.solid)
+    : system_(system), options_(e.multigrid), beta_(e.beta)
 {
 }
 
-void monolithicPreconditioner::setup(const List<vec4>& springsAt)
+void monolithicPreconditioner::setup()
 {
     const fsiCase& c = system_.fsi();
     const particleCloud& cloud = c.cloud;
@@ -38,58 +26,43 @@ void monolithicPreconditioner::setup(const List<vec4>& springsAt)
         for (label i = 0; i < cloud.nSolid(); ++i)
             bulk_[i] += beta_ * c.structure->shearModulus() * system_.dt();
     if (system_.tangent())
-        solid_.setup(*system_.tangent(), system_.dt(), system_.diagonal(), cloud, springsAt,
+        solid_.setup(*system_.tangent(), system_.dt(), system_.diagonal(), cloud,
                      c.kernel->support());
 
     buildLaplacian();
-    List<vector> position(cloud.n());
-    List<std::uint8_t> group(cloud.n());
-    for (label i = 0; i < cloud.n(); ++i)
-        position[i] = cloud.x[i].xyz(), group[i] = std::uint8_t(cloud.phase[i]);
+    List<vector> position(cloud.n() - cloud.nSolid());
+    for (size_t i = 0; i < position.size(); ++i) position[i] = cloud.x[cloud.nSolid() + i].xyz();
     options_.cellSize = c.kernel->support();
-    if (multigrid_) multigrid_->rebuild(L_, position, group);
-    else multigrid_ = std::make_unique<cellMultigrid>(L_, position, options_, group);
-}
-
-void monolithicPreconditioner::keep(particleCloud& cloud) const
-{
-    cloud.history[solidFactor] = solid_.state();
-}
-
-void monolithicPreconditioner::restore(blockMatrix3& K)
-{
-    const fsiCase& c = system_.fsi();
-    if (const auto kept = c.cloud.history.find(solidFactor); kept != c.cloud.history.end())
-        solid_.restore(kept->second, *c.structure, c.cloud, K);
+    if (multigrid_) multigrid_->rebuild(L_, position);
+    else multigrid_ = std::make_unique<cellMultigrid>(L_, position, options_);
 }
 
 void monolithicPreconditioner::buildLaplacian()
 {
     const fsiCase& c = system_.fsi();
     const particleCloud& cloud = c.cloud;
-    const label n = cloud.n();
-    const auto tau = [&](label i) {
-        return cloud.isFluid(i) ? system_.dt() / c.rho : system_.tau()[i];
-    };
+    const label first = cloud.nSolid(), n = cloud.n() - first;
+    const scalar fluidTau = system_.dt() / c.rho;
 
     // Row i: sum_j -2 F_ij tau_ij (p_i - p_j).  Images count for their source, rigid neighbours are left out
-    // (dp/dn = 0).  The row of a given pressure has its diagonal alone.
+    // (dp/dn = 0).  The row of a given pressure has its diagonal alone
     const auto row = [&](label i, auto&& entry) {
         scalar d = 0;
         if (cloud.pHeld(i)) return d;
         forNeighbours<among::connected>(c.list, i, [&](pairIndex k, label neighbour) {
             const label j = cloud.ownerOf(neighbour);
             if (j == i) return;
-            const scalar a = -4 * c.list.F[k] * tau(i) * tau(j) / (tau(i) + tau(j));
+            const scalar tau = cloud.isFluid(j) ? fluidTau : system_.tau()[j];
+            const scalar a = -4 * c.list.F[k] * fluidTau * tau / (fluidTau + tau);
             d += a;
-            if (k < c.list.mid[i] && !cloud.pHeld(j)) entry(j, -a);
+            if (k < c.list.mid[i] && !cloud.pHeld(j)) entry(j - first, -a);
         });
         return d;
     };
     L_.rowStart.assign(n + 1, 0), L_.diagonal.resize(n);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
-            L_.diagonal[i] = row(i, [&](label, scalar) { ++L_.rowStart[i + 1]; });
+            L_.diagonal[i] = row(first + i, [&](label, scalar) { ++L_.rowStart[i + 1]; });
     });
     for (label i = 0; i < n; ++i) L_.rowStart[i + 1] += L_.rowStart[i];
     L_.column.resize(L_.rowStart[n]), L_.value.resize(L_.rowStart[n]);
@@ -97,7 +70,7 @@ void monolithicPreconditioner::buildLaplacian()
         for (label i = begin; i < end; ++i)
         {
             label k = L_.rowStart[i];
-            row(i, [&](label j, scalar a) { L_.column[k] = j, L_.value[k++] = a; });
+            row(first + i, [&](label j, scalar a) { L_.column[k] = j, L_.value[k++] = a; });
         }
     });
     // rows without neighbours and rows of given pressure: any positive diagonal of the right size
@@ -119,11 +92,14 @@ void monolithicPreconditioner::momentum(const List<scalar>& r, List<vec4>& u) co
     if (system_.tangent()) solid_.solve(A, cloud, u);
 
     cloud.fillGhosts(u, true);
-    system_.rows().viscous().neighbours(u, work_);
+    const viscousPairs& viscous = system_.rows().viscous();
+    viscous.apply(u, work_, nSolid);
     parallelFor(n - nSolid, [&](label begin, label end) {
         for (label i = nSolid + begin; i < nSolid + end; ++i)
         {
-            u[i].s -= system_.viscousFactor() / A[i] * work_[i].s;
+            // sum_j K_ij u_j; walls are at rest here
+            const simd4 beside = work_[i].s + viscous.sum()[i] * u[i].s;
+            u[i].s -= system_.viscousFactor() / A[i] * beside;
             u[i][3] = 0;
         }
     });
@@ -132,16 +108,16 @@ void monolithicPreconditioner::momentum(const List<scalar>& r, List<vec4>& u) co
 void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) const
 {
     const particleCloud& cloud = system_.fsi().cloud;
-    const label n = cloud.n();
+    const label n = cloud.n(), nSolid = cloud.nSolid();
     momentum(r, u_);
     cloud.fillGhosts(u_, true);
     system_.rows().divergence(u_, div_);
-    b_.resize(n), s_.resize(n);
+    b_.resize(n - nSolid), s_.resize(n - nSolid);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
             div_[i] -= r[4 * i + 3] / cloud.dx;
-            b_[i] = cloud.pHeld(i) ? 0 : -div_[i];
+            if (i >= nSolid) b_[i - nSolid] = cloud.pHeld(i) ? 0 : -div_[i];
         }
     });
     multigrid_->apply(b_, s_);
@@ -150,8 +126,7 @@ void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) con
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
-            const scalar share = cloud.isFluid(i) ? 1 : solidShare;
-            const scalar p = share * s_[i] - bulk_[i] * div_[i];
+            const scalar p = (i < nSolid ? 0 : s_[i - nSolid]) - bulk_[i] * div_[i];
             phi_[i].s = simd4{0, 0, 0, cloud.pHeld(i) ? r[4 * i + 3] : p};
         }
     });
