@@ -30,19 +30,25 @@ void monolithicPreconditioner::setup()
                      c.kernel->support());
 
     buildLaplacian();
-    List<vector> position(cloud.n() - cloud.nSolid());
-    for (size_t i = 0; i < position.size(); ++i) position[i] = cloud.x[cloud.nSolid() + i].xyz();
+    List<vector> position(cloud.n());
+    List<std::uint8_t> group(cloud.n());
+    for (label i = 0; i < cloud.n(); ++i)
+        position[i] = cloud.x[i].xyz(), group[i] = std::uint8_t(cloud.phase[i]);
     options_.cellSize = c.kernel->support();
-    if (multigrid_) multigrid_->rebuild(L_, position);
-    else multigrid_ = std::make_unique<cellMultigrid>(L_, position, options_);
+    if (multigrid_) multigrid_->rebuild(L_, position, group);
+    else multigrid_ = std::make_unique<cellMultigrid>(L_, position, options_, group);
 }
 
 void monolithicPreconditioner::buildLaplacian()
 {
     const fsiCase& c = system_.fsi();
     const particleCloud& cloud = c.cloud;
-    const label first = cloud.nSolid(), n = cloud.n() - first;
-    const scalar fluidTau = system_.dt() / c.rho;
+    const label n = cloud.n();
+    const scalar free = system_.dt() / c.rho;
+    // a neighbour of the other phase: a solid yields little to the fluid, fluid gives way to a solid
+    const auto tauBeside = [&](label i, label j) {
+        return cloud.isFluid(i) ? 2 * free * system_.tau()[j] / (free + system_.tau()[j]) : free;
+    };
 
     // Row i: sum_j -2 F_ij tau_ij (p_i - p_j).  Images count for their source, rigid neighbours are left out
     // (dp/dn = 0).  The row of a given pressure has its diagonal alone
@@ -52,17 +58,17 @@ void monolithicPreconditioner::buildLaplacian()
         forNeighbours<among::connected>(c.list, i, [&](pairIndex k, label neighbour) {
             const label j = cloud.ownerOf(neighbour);
             if (j == i) return;
-            const scalar tau = cloud.isFluid(j) ? fluidTau : system_.tau()[j];
-            const scalar a = -4 * c.list.F[k] * fluidTau * tau / (fluidTau + tau);
+            const bool same = k < c.list.mid[i];
+            const scalar a = -2 * c.list.F[k] * (same ? free : tauBeside(i, j));
             d += a;
-            if (k < c.list.mid[i] && !cloud.pHeld(j)) entry(j - first, -a);
+            if (same && !cloud.pHeld(j)) entry(j, -a);
         });
         return d;
     };
     L_.rowStart.assign(n + 1, 0), L_.diagonal.resize(n);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
-            L_.diagonal[i] = row(first + i, [&](label, scalar) { ++L_.rowStart[i + 1]; });
+            L_.diagonal[i] = row(i, [&](label, scalar) { ++L_.rowStart[i + 1]; });
     });
     for (label i = 0; i < n; ++i) L_.rowStart[i + 1] += L_.rowStart[i];
     L_.column.resize(L_.rowStart[n]), L_.value.resize(L_.rowStart[n]);
@@ -70,7 +76,7 @@ void monolithicPreconditioner::buildLaplacian()
         for (label i = begin; i < end; ++i)
         {
             label k = L_.rowStart[i];
-            row(first + i, [&](label j, scalar a) { L_.column[k] = j, L_.value[k++] = a; });
+            row(i, [&](label j, scalar a) { L_.column[k] = j, L_.value[k++] = a; });
         }
     });
     // rows without neighbours and rows of given pressure: any positive diagonal of the right size
@@ -108,16 +114,16 @@ void monolithicPreconditioner::momentum(const List<scalar>& r, List<vec4>& u) co
 void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) const
 {
     const particleCloud& cloud = system_.fsi().cloud;
-    const label n = cloud.n(), nSolid = cloud.nSolid();
+    const label n = cloud.n();
     momentum(r, u_);
     cloud.fillGhosts(u_, true);
     system_.rows().divergence(u_, div_);
-    b_.resize(n - nSolid), s_.resize(n - nSolid);
+    b_.resize(n), s_.resize(n);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
             div_[i] -= r[4 * i + 3] / cloud.dx;
-            if (i >= nSolid) b_[i - nSolid] = cloud.pHeld(i) ? 0 : -div_[i];
+            b_[i] = cloud.pHeld(i) ? 0 : -div_[i];
         }
     });
     multigrid_->apply(b_, s_);
@@ -126,7 +132,7 @@ void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) con
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
-            const scalar p = (i < nSolid ? 0 : s_[i - nSolid]) - bulk_[i] * div_[i];
+            const scalar p = s_[i] - bulk_[i] * div_[i];
             phi_[i].s = simd4{0, 0, 0, cloud.pHeld(i) ? r[4 * i + 3] : p};
         }
     });
