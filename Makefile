@@ -94,7 +94,7 @@ archives  = $(foreach l,$(call reverse,$(LIBS)),$(if $(wildcard src/$(l)/*.C),$(
 archivesOf= $(foreach l,$(call reverse,$(call ordered,$(1))),$(if $(wildcard src/$(l)/*.C),$(B)/lib/$(l).a))
 group     = $(if $(filter $(1) $(1)/%,$(LIBS)),$(filter $(1) $(1)/%,$(LIBS)) $(ALSO_$(1)))
 
-.PHONY: all test validate validateLong fuzz demo bench clean help format
+.PHONY: all test validate validateLong fuzz demo bench benchPressure clean help format
 all: ## build every library and program
 help: ## this list
 	@grep -hE '^[a-zA-Z]+:.*## ' Makefile | sed -E 's/^([a-zA-Z]+):.*## /  \1\t/' | expand -t 14
@@ -174,7 +174,10 @@ fuzz: ## RUNS (100000) arbitrary inputs for each reader of foreign files, with c
 demo: ## install what is missing, build, run the benchmark, draw it, compare with the published numbers
 	@bin/demo
 
-bench: all ## the pressure solvers on the demo's geometry, with the paper's scheme
+bench: all ## what a step, a start, a write and memory cost on the whole HCC, beside STREAM and icoFoam: tests/benchmarks/results.csv
+	@bin/bench $(BENCH)
+
+benchPressure: all ## the pressure solvers on the demo's geometry, with the paper's scheme
 	@bin/benchPressure
 
 format: ## clang-format all sources in place

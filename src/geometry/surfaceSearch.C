@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surfaceSearch.H"
 
+#include "execution.H"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -13,6 +15,7 @@ namespace
 
 constexpr label leafSize = 4;
 constexpr int maxDepth = 64;
+constexpr int wideDepth = 3 * maxDepth / 2 + 4;  // three more for each level of a tree of four
 
 // Nearest point of a triangle (Ericson 2005, Real-Time Collision Detection, sec. 5.1.5).
 // part: 0 facet, 1..3 edge from corner part-1, 4..6 corner part-4
@@ -36,6 +39,121 @@ vector nearestOfTriangle(const std::array<vector, 3>& t, const vector& p, int& p
         return part = 2, t[1] + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (t[2] - t[1]);
     part = 0;
     return t[0] + vb / (va + vb + vc) * ab + vc / (va + vb + vc) * ac;
+}
+
+// Squared distance, with the nearest point.  Not a part of an ISPF_HOT function: the result is the same on all machines
+__attribute__((noinline)) scalar distSqr(const std::array<vector, 3>& t, const vector& p, vector& q,
+                                         int& part)
+{
+    q = nearestOfTriangle(t, p, part);
+    return (q - p).squaredNorm();
+}
+
+struct nearestTriangle
+{
+    scalar limit;   // squared distance
+    label at = -1;  // place in the order of the tree
+    vector point = vector::Zero();
+    int part = 0;
+};
+
+ISPF_INLINE simd4 dot(const simd4 (&a)[3], const simd4 (&b)[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+ISPF_INLINE simd4 larger(simd4 a, simd4 b)
+{
+    return a > b ? a : b;
+}
+
+ISPF_INLINE simd4 smaller(simd4 a, simd4 b)
+{
+    return a < b ? a : b;
+}
+
+// Squared distance from the end of `from` to the segment of `along`, both from one point
+ISPF_INLINE simd4 toSegment(const simd4 (&from)[3], const simd4 (&along)[3])
+{
+    const simd4 zero = {};
+    simd4 t = dot(from, along) / larger(dot(along, along), zero + 1e-300);
+    t = smaller(larger(t, zero), zero + 1);
+    simd4 off[3];
+    for (int d = 0; d < 3; ++d) off[d] = from[d] - t * along[d];
+    return dot(off, off);
+}
+
+// Squared distances from p to four triangles, too small by less than rounding errors of the largest length
+ISPF_INLINE simd4 lowerDistSqr(const triangleQuad& t, const vector& p)
+{
+    simd4 ap[3], bp[3], bc[3];
+    for (int d = 0; d < 3; ++d)
+    {
+        ap[d] = p[d] - t.a[d];
+        bp[d] = ap[d] - t.ab[d];
+        bc[d] = t.ac[d] - t.ab[d];
+    }
+    simd4 least = smaller(toSegment(bp, bc), smaller(toSegment(ap, t.ab), toSegment(ap, t.ac)));
+    const simd4 bb = dot(t.ab, t.ab), cc = dot(t.ac, t.ac), bcDot = dot(t.ab, t.ac);
+    const simd4 d1 = dot(t.ab, ap), d2 = dot(t.ac, ap);
+    const simd4 v = d1 * cc - d2 * bcDot, w = d2 * bb - d1 * bcDot, whole = bb * cc - bcDot * bcDot;
+    const simd4 n[3] = {t.ab[1] * t.ac[2] - t.ab[2] * t.ac[1],
+                        t.ab[2] * t.ac[0] - t.ab[0] * t.ac[2],
+                        t.ab[0] * t.ac[1] - t.ab[1] * t.ac[0]};
+    const simd4 height = dot(ap, n), zero = {},
+                plane = height * height / larger(dot(n, n), zero + 1e-300);
+    const simd4 within = v < zero ? zero : w < zero ? zero : v + w > whole ? zero : zero + 1;
+    least = within > zero ? smaller(plane, least) : least;
+    return least * (1 - 1e-9) - 1e-20 * (dot(ap, ap) + bb + cc);
+}
+
+ISPF_HOT void findNearest(const boxQuad* boxes, const triangleQuad* leaves,
+                          const std::array<vector, 3>* corners, label root, const vector& p,
+                          nearestTriangle& best)
+{
+    struct entry
+    {
+        label child;
+        scalar distSqr;
+    };
+    entry stack[wideDepth];
+    int top = 0;
+    stack[top++] = {root, 0};
+    while (top > 0)
+    {
+        const entry e = stack[--top];
+        if (e.distSqr > best.limit) continue;
+        if (e.child < 0)
+        {
+            const triangleQuad& leaf = leaves[-1 - e.child];
+            const simd4 lower = lowerDistSqr(leaf, p);
+            for (int k = 0; k < leaf.n; ++k)
+            {
+                if (lower[k] > best.limit) continue;
+                vector q;
+                int part;
+                const scalar d2 = distSqr(corners[leaf.begin + k], p, q, part);
+                if (d2 > best.limit || (d2 == best.limit && best.at >= 0)) continue;
+                best = {d2, leaf.begin + k, q, part};
+            }
+            continue;
+        }
+        const boxQuad& four = boxes[e.child];
+        simd4 sum = {};
+        for (int d = 0; d < 3; ++d)
+        {
+            const simd4 off = larger(larger(four.min[d] - p[d], p[d] - four.max[d]), simd4{});
+            sum += off * off;
+        }
+        const int bottom = top;
+        for (int k = 0; k < 4; ++k)
+        {
+            if (sum[k] > best.limit) continue;
+            int at = top++;
+            for (; at > bottom && stack[at - 1].distSqr < sum[k]; --at) stack[at] = stack[at - 1];
+            stack[at] = {four.child[k], sum[k]};
+        }
+    }
 }
 
 // Fraction of the segment from a along d at which it meets the triangle, else infinity
@@ -79,6 +197,7 @@ surfaceSearch::surfaceSearch(triSurface surface) : surface_(std::move(surface))
     if (!order_.empty()) build(0, surface_.size());
     for (const label t : order_)
         corners_.push_back({surface_.corner(t, 0), surface_.corner(t, 1), surface_.corner(t, 2)});
+    if (!order_.empty()) root_ = quadOf(0);
     setNormals();
 }
 
@@ -109,6 +228,42 @@ label surfaceSearch::build(label begin, label end)
         n.second = build(half, end);
     }
     nodes_[index] = n;
+    return index;
+}
+
+// Makes a quad of up to four nodes: the given one, or its children and theirs.  Returns its index, a leaf's as -1 - index
+label surfaceSearch::quadOf(label i)
+{
+    const node& n = nodes_[i];
+    if (n.second == 0)
+    {
+        triangleQuad t = {};
+        t.begin = n.begin, t.n = n.end - n.begin;
+        for (int k = 0; k < t.n; ++k)
+            for (int d = 0; d < 3; ++d)
+            {
+                const std::array<vector, 3>& c = corners_[n.begin + k];
+                t.a[d][k] = c[0][d], t.ab[d][k] = c[1][d] - c[0][d], t.ac[d][k] = c[2][d] - c[0][d];
+            }
+        leaves_.push_back(t);
+        return -label(leaves_.size());
+    }
+    List<label> children;
+    for (const label child : {i + 1, n.second})
+        if (const label second = nodes_[child].second; second == 0) children.push_back(child);
+        else children.insert(children.end(), {child + 1, second});
+    const label index = label(quads_.size());
+    quads_.emplace_back();
+    boxQuad four;
+    constexpr scalar nowhere = 1e200;  // its square is infinite
+    for (int d = 0; d < 3; ++d) four.min[d] = four.max[d] = simd4{} + nowhere;
+    for (size_t k = 0; k < children.size(); ++k)
+    {
+        const boundBox& box = nodes_[children[k]].box;
+        for (int d = 0; d < 3; ++d) four.min[d][k] = box.min[d], four.max[d][k] = box.max[d];
+        four.child[k] = quadOf(children[k]);
+    }
+    quads_[index] = four;
     return index;
 }
 
@@ -179,38 +334,13 @@ surfacePoint surfaceSearch::nearest(const vector& p, scalar radius) const
 {
     surfacePoint best;
     if (nodes_.empty()) return best;
-    scalar limit = radius < 1e150 ? radius * radius : std::numeric_limits<scalar>::max();
-    int bestPart = 0;
-    std::pair<label, scalar> stack[maxDepth];
-    int top = 0;
-    stack[top++] = {0, nodes_[0].box.distSqr(p)};
-    while (top > 0)
-    {
-        const auto [i, d] = stack[--top];
-        if (d > limit) continue;
-        const node& n = nodes_[i];
-        if (n.second == 0)
-        {
-            for (label k = n.begin; k < n.end; ++k)
-            {
-                int part;
-                const vector q = nearestOfTriangle(corners_[k], p, part);
-                const scalar d2 = (q - p).squaredNorm();
-                if (d2 > limit || (d2 == limit && best.triangle >= 0)) continue;
-                limit = d2;
-                best.point = q;
-                best.triangle = order_[k];
-                bestPart = part;
-            }
-            continue;
-        }
-        const scalar d1 = nodes_[i + 1].box.distSqr(p), d2 = nodes_[n.second].box.distSqr(p);
-        if (d1 < d2) stack[top++] = {n.second, d2}, stack[top++] = {i + 1, d1};
-        else stack[top++] = {i + 1, d1}, stack[top++] = {n.second, d2};
-    }
-    if (best.triangle < 0) return best;
-    best.distance = std::sqrt(limit);
-    finish(best, bestPart);
+    nearestTriangle found;
+    found.limit = radius < 1e150 ? radius * radius : std::numeric_limits<scalar>::max();
+    findNearest(quads_.data(), leaves_.data(), corners_.data(), root_, p, found);
+    if (found.at < 0) return best;
+    best.point = found.point, best.triangle = order_[found.at];
+    best.distance = std::sqrt(found.limit);
+    finish(best, found.part);
     return best;
 }
 

@@ -18,8 +18,8 @@ namespace
 {
 
 constexpr scalar deadBand = 0.010;
-constexpr scalar aim =
-    0.009;  // lies within the band: steps that aim at the edge never quite reach it
+// lies within the band: steps that aim at the edge never quite reach it
+constexpr scalar aim = 0.009;
 constexpr scalar underRelaxation = 0.5;  // neighbours correct the same place at the same time
 constexpr label mostSteps = 60;
 constexpr scalar nearest = 0.77;  // in dx: two particles that are nearer are pushed apart
@@ -34,15 +34,12 @@ public:
           pairs_(guides.geometry(), support),
           kernel_(packingKernel::shares(guides.geometry(), support)),
           multiplier_(n_, 0),
-          counted_(n_, 0),
           crowded_(n_, 0),
           moved_(n_, 1),
-          nearest_(nearest * guides.geometry().dx())
+          nearest_(nearest * guides.geometry().dx()),
+          ends_(openEnds(guides.geometry())),
+          support_(support)
     {
-        const surfaceSearch ends(openEnds(guides.geometry()));
-        for (label i = 0; i < n_; ++i)
-            counted_[i] = particles[i].where == packedParticle::place::zone &&
-                          !ends.within(particles[i].x, support);
     }
 
     void run()
@@ -93,7 +90,10 @@ private:
             for (label i = begin; i < end; ++i)
                 if (changed[i])
                 {
-                    multiplier_[i] = counted_[i] ? multiplierOf(i) : 0;
+                    const bool inZone = particles_[i].where == packedParticle::place::zone;
+                    const scalar l = inZone ? multiplierOf(i) : 0;
+                    // asked at its present place: a particle may leave the reach of an open end
+                    multiplier_[i] = l != 0 && !ends_.within(particles_[i].x, support_) ? l : 0;
                     crowded_[i] = isPlaced(i) && isCrowded(i);
                 }
         });
@@ -150,8 +150,10 @@ private:
     packingPairs pairs_;
     packingKernel kernel_;
     List<scalar> multiplier_;
-    List<char> counted_, crowded_, moved_;
+    List<char> crowded_, moved_;
     scalar nearest_;
+    surfaceSearch ends_;
+    scalar support_;
 };
 
 }  // namespace

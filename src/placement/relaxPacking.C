@@ -18,8 +18,8 @@ using place = packedParticle::place;
 constexpr scalar narrowSupport = 1.7;  // in dx
 constexpr scalar wideRate = 0.4;       // of the displacement that would remove a long wave at once
 constexpr scalar narrowRate = 0.12;
-constexpr scalar momentum =
-    0.6;  // part of the last move that is repeated: long waves need many moves
+// part of the last move that is repeated: long waves need many moves
+constexpr scalar momentum = 0.6;
 constexpr label correctionInterval = 8;  // iterations between additions and removals
 constexpr scalar roomAtBirth = 0.6;      // in dx, to the next particle
 constexpr scalar tolerableSum = 0.035;   // deviation of a kernel sum that calls for a correction

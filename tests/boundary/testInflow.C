@@ -102,7 +102,7 @@ TEST_CASE("a profile by table, a direction, a vector, and what cannot be")
         const inflow grows = f.given("velocity " + v + (v[0] == '{' ? "" : ";"));
         CHECK((grows.velocity({0, 0, 0}, n) - vector(0.2, 0, -0.1)).norm() < 1e-12);
     }
-    CHECK_ERROR(f.given("velocity table ((0 (0 0 1)) (1 (1 0 1)));"), "direction changes", 1);
+    CHECK_ERROR(f.given("velocity table ((0 (0 0 1)) (1 (1 0 1)));"), "direction of the velocity changes", 1);
     CHECK_ERROR(f.given("velocity table ((0 0.1) (1 x));"), "finite number is wanted", 1);
 
     // errors of a vector are reported too

@@ -49,7 +49,7 @@ ISPF_HOT void addRun(const scalar* x, const scalar* y, const scalar* z, label n,
 }  // namespace
 
 footSums::footSums(const List<vector>& feet, scalar mostRadius)
-    : radius_(mostRadius), width_(0.5 * mostRadius)
+    : radius_(mostRadius), width_(0.25 * mostRadius)
 {
     vector high = low_;
     if (!feet.empty()) low_ = high = feet[0];
@@ -76,22 +76,33 @@ footSums::footSums(const List<vector>& feet, scalar mostRadius)
 
 std::array<scalar, 2> footSums::at(const vector& x, const std::array<scalar, 2>& radii) const
 {
-    label from[3], to[3];
-    for (int d = 0; d < 3; ++d)
-    {
-        from[d] = std::max(label(0), label(std::floor((x[d] - radius_ - low_[d]) / width_)));
-        to[d] = std::min(n_[d] - 1, label(std::floor((x[d] + radius_ - low_[d]) / width_)));
-    }
+    const auto cellsWithin = [&](int d, scalar reach) {
+        return std::pair(std::max(label(0), label(std::floor((x[d] - reach - low_[d]) / width_))),
+                         std::min(n_[d] - 1, label(std::floor((x[d] + reach - low_[d]) / width_))));
+    };
+    // distance from x to cell c along axis d
+    const auto gap = [&](int d, label c) {
+        const scalar low = low_[d] + scalar(c) * width_;
+        return std::max({low - x[d], x[d] - (low + width_), 0.0});
+    };
     const scalar perSquare[2] = {1 / (radii[0] * radii[0]), 1 / (radii[1] * radii[1])};
     lanesOfSums sums;
-    for (label c = from[2]; c <= to[2]; ++c)
-        for (label b = from[1]; b <= to[1] && from[0] <= to[0]; ++b)
+    const auto [c0, c1] = cellsWithin(2, radius_);
+    for (label c = c0; c <= c1; ++c)
+    {
+        const scalar inPlane = std::sqrt(std::max(0.0, radius_ * radius_ - gap(2, c) * gap(2, c)));
+        const auto [b0, b1] = cellsWithin(1, inPlane);
+        for (label b = b0; b <= b1; ++b)
         {
+            const auto [a0, a1] =
+                cellsWithin(0, std::sqrt(std::max(0.0, inPlane * inPlane - gap(1, b) * gap(1, b))));
+            if (a0 > a1) continue;
             const size_t row = (size_t(c) * n_[1] + b) * n_[0];
-            const label first = start_[row + from[0]], last = start_[row + to[0] + 1];
+            const label first = start_[row + a0], last = start_[row + a1 + 1];
             addRun(sorted_[0].data() + first, sorted_[1].data() + first, sorted_[2].data() + first,
                    last - first, x.data(), perSquare, sums);
         }
+    }
     return {sums.total(0), sums.total(1)};
 }
 

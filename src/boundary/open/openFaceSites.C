@@ -19,6 +19,47 @@ List<vector> tangents(const vector& n, int nDims)
     return {across, n.cross(across)};
 }
 
+// Depths at some points of a cell, where no foot lies on the rim: they tell of other points that they are outside the
+// strip, without a search
+class knownSides
+{
+public:
+    knownSides(const patchSurface& surface, footSequence& near, const vector& inCell, scalar dx,
+               int nDims)
+    {
+        vector centre = vector::Zero();
+        for (int d = 0; d < nDims; ++d) centre[d] = dx * (std::floor(inCell[d] / dx) + 0.5);
+        const surfaceFoot f = near.find(centre);
+        // nothing in the cell is farther from the surface than this, seen from the centre
+        const scalar farthest = std::abs(f.depth) + std::sqrt(scalar(nDims)) * dx;
+        usable_ = f.found && f.aside == 0 && !surface.rimWithin(centre, farthest);
+        add(centre, f);
+    }
+    void add(const vector& x, const surfaceFoot& f)
+    {
+        if (usable_ && f.found) known_.push_back({x, f.depth});
+    }
+    // True if the depth of x is surely negative or larger than `depth`.  Without a rim nearby, the depth changes by no
+    // more than the way from a known point to x
+    bool isOutside(const vector& x, scalar depth) const
+    {
+        constexpr scalar rounding = 1e-9;
+        return std::any_of(known_.begin(), known_.end(), [&](const place& p) {
+            const scalar way = (1 + rounding) * (x - p.x).norm();
+            return p.depth + way < 0 || p.depth - way > depth;
+        });
+    }
+
+private:
+    struct place
+    {
+        vector x;
+        scalar depth;
+    };
+    bool usable_ = false;
+    List<place> known_;
+};
+
 }  // namespace
 
 // Makes sample points that fill the strip: they give the sums of a full strip, wherever the sites lie.  Returns the
@@ -26,26 +67,31 @@ List<vector> tangents(const vector& n, int nDims)
 footSums openFace::sampleStrip(const List<vector>& sites, int nDims, const place& allowed)
 {
     pointGrid known(dx_);
-    List<vector> feet;
     for (const vector& x : sites) known.add(x);
     const List<vector> points = samplesAround(sites, dx_, nDims);
-    List<surfaceFoot> found(points.size());
-    parallelFor(
-        label(points.size()),
-        [&](label begin, label end) {
-            for (label k = begin; k < end; ++k)
+    const label perCell = samplesPerCell(nDims);
+    const auto parts = parallelParts(label(points.size()) / perCell, [&](label begin, label end) {
+        List<sample> kept;
+        footSequence near(*surface_);
+        for (label cell = begin; cell < end; ++cell)
+        {
+            knownSides sides(*surface_, near, points[cell * perCell], dx_, nDims);
+            for (label k = cell * perCell; k < (cell + 1) * perCell; ++k)
             {
                 const vector& x = points[k];
-                surfaceFoot f = surface_->find(x);
-                f.found = f.found && f.depth > 0 && f.depth <= depth_ && allowed(x, 0) &&
-                          (f.aside == 0 || known.nearest(x, 0.7 * dx_) < 0.7 * dx_);
-                found[k] = f;
+                if (sides.isOutside(x, depth_)) continue;
+                const surfaceFoot f = near.find(x);
+                sides.add(x, f);
+                if (f.found && f.depth > 0 && f.depth <= depth_ && allowed(x, 0) &&
+                    (f.aside == 0 || known.nearest(x, 0.7 * dx_) < 0.7 * dx_))
+                    kept.push_back({x, f.foot});
             }
-        },
-        256);
-    for (size_t k = 0; k < points.size(); ++k)
-        if (found[k].found)
-            feet.push_back(found[k].foot), samples_.push_back({points[k], found[k].foot});
+        }
+        return kept;
+    });
+    List<vector> feet;
+    for (const List<sample>& part : parts)
+        for (const sample& s : part) feet.push_back(s.foot), samples_.push_back(s);
     return footSums(feet, region_);
 }
 
@@ -80,6 +126,7 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
         feet.push_back(f), kept.push_back(x);
         betweenWalls_ = betweenWalls_ || beside(f.foot - 0.5 * dx_ * f.normal, 0.75 * dx_);
     }
+    if (feet.empty() && isCovered(allowed)) throw covered(cloud.nDims);
     if (feet.empty())
         throw fatalError("Open patch " + name_ + " has no site within " + str(depth_ / dx_) +
                              " dx beyond its surface, of " + std::to_string(sites.size()) +
@@ -114,8 +161,27 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
     checkOuterEnd(feet, taken, cloud.nDims);
 }
 
-// fatalError if no particle can be put at the outer end of the strip.  A wall continues past the rim; if an opening lies
-// flush in a curved wall, the wall covers the whole outer end, and nothing could enter
+// True if no place at the outer end of the strip is free.  A wall continues past the rim; if an opening lies flush in a
+// curved wall, the wall covers the whole outer end, and nothing could enter
+bool openFace::isCovered(const place& allowed) const
+{
+    const triSurface& s = mesh_.surface();
+    for (label t = 0; t < s.size(); ++t)
+        if (allowed(s.centre(t) + depth_ * s.areaVector(t).normalized(), 0)) return false;
+    return !mesh_.empty();
+}
+
+fatalError openFace::covered(int nDims) const
+{
+    return fatalError(
+        "Open patch " + name_ + ": its walls, continued past its rim, cover all of the strip " +
+            str(depth_ / dx_) + " dx beyond it, so that nothing could enter" + widthInWords(nDims) +
+            ". Take half the dx, or prolong the vessel before the opening by " +
+            str(depth_ / dx_ + 1) + " dx",
+        where_);
+}
+
+// fatalError if no particle can be put at the outer end of the strip
 void openFace::checkOuterEnd(const List<surfaceFoot>& feet, const pointGrid& places,
                              int nDims) const
 {
@@ -123,12 +189,7 @@ void openFace::checkOuterEnd(const List<surfaceFoot>& feet, const pointGrid& pla
             return places.any(f.foot + depth_ * f.normal, 0.75 * dx_);
         }))
         return;
-    throw fatalError(
-        "Open patch " + name_ + ": its walls, continued past its rim, cover all of the strip " +
-            str(depth_ / dx_) + " dx beyond it, so that nothing could enter" + widthInWords(nDims) +
-            ". Take half the dx, or prolong the vessel before the opening by " +
-            str(depth_ / dx_ + 1) + " dx",
-        where_);
+    throw covered(nDims);
 }
 
 // A solid that holds the fluid before the face must also hold the fluid in the strip

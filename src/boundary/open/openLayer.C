@@ -28,9 +28,10 @@ openLayer::openLayer(const patchSurface& surface, const List<vector>& sites,
     : dx_(cloud.dx), nDims_(cloud.nDims)
 {
     List<vector> columns;
+    footSequence ofSites(surface);
     for (const vector& x : sites)
     {
-        const surfaceFoot f = surface.find(x);
+        const surfaceFoot f = ofSites.find(x);
         for (scalar s = -f.depth; s < depth * dx_; s += dx_)
             columns.push_back(f.foot - s * f.normal);
     }
@@ -45,9 +46,10 @@ openLayer::openLayer(const patchSurface& surface, const List<vector>& sites,
     parallelFor(
         label(feet.size()),
         [&](label begin, label end) {
+            footSequence near(surface);
             for (label k = begin; k < end; ++k)
             {
-                feet[k] = surface.find(centreOf(k));
+                feet[k] = near.find(centreOf(k));
                 const scalar beyond = feet[k].depth / dx_;
                 if (!feet[k].found || feet[k].aside > 0 || beyond < -depth - 1 || beyond > 1)
                 {

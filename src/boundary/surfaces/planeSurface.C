@@ -17,12 +17,12 @@ public:
     {
     }
 
-    surfaceFoot find(const vector& x) const override
+    surfaceFoot find(const vector& x, scalar) const override
     {
         surfaceFoot f;
         f.depth = (x - point_).dot(normal_);
         f.found = std::abs(f.depth) <= reach_;
-        f.normal = normal_, f.foot = x - f.depth * normal_;
+        f.normal = normal_, f.foot = f.nearest = x - f.depth * normal_;
         return f;
     }
 
@@ -42,6 +42,7 @@ public:
     }
 
     vector areaVector(label) const override { return vector::Zero(); }
+    bool rimWithin(const vector&, scalar) const override { return false; }
     bool surelyFar(const vector& x) const override
     {
         return std::abs((x - point_).dot(normal_)) > reach_;

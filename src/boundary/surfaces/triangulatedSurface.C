@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "patchSurface.H"
 
+#include "surfaceTopology.H"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -92,16 +94,24 @@ public:
         surface.weld(1e-4 * reach);
         search_ = surfaceSearch(continued(std::move(surface), group, reach));
         raster_.build(search_, reach);
+        triSurface rim;  // edges as triangles without area
+        for (const auto& [a, b] : openHalfEdges(search_.surface()))
+        {
+            const vector& end = search_.surface().nodes[b];
+            rim.add(search_.surface().nodes[a], end, end, 0);
+        }
+        rim_ = surfaceSearch(std::move(rim));
     }
 
-    surfaceFoot find(const vector& x) const override
+    surfaceFoot find(const vector& x, scalar known) const override
     {
         surfaceFoot f;
         if (raster_.far(x)) return f;
-        const surfacePoint p = search_.nearest(x, reach_);
+        const surfacePoint p = search_.nearest(x, std::min(known, reach_));
         if (!p.found) return f;
         if (twoSided_) return onSheet(x, p);
         f.found = true, f.patch = search_.patch(p), f.foot = p.point, f.normal = p.normal;
+        f.nearest = p.point;
         if (p.rim)
         {
             f.depth = (x - p.point).dot(p.normal);
@@ -132,6 +142,7 @@ public:
         return twoSided_ ? vector(vector::Zero()) : area_[patch];
     }
     const triSurface* mesh() const override { return &search_.surface(); }
+    bool rimWithin(const vector& x, scalar radius) const override { return rim_.within(x, radius); }
     bool surelyFar(const vector& x) const override { return raster_.far(x); }
 
 private:
@@ -139,7 +150,7 @@ private:
     surfaceFoot onSheet(const vector& x, const surfacePoint& p) const
     {
         surfaceFoot f;
-        f.found = true, f.patch = search_.patch(p), f.normal = p.normal;
+        f.found = true, f.patch = search_.patch(p), f.normal = p.normal, f.nearest = p.point;
         if (!p.rim && p.distance > 1e-6 * reach_) f.normal = (p.point - x) / p.distance;
         if ((x - p.point).dot(f.normal) > 0) f.normal = -f.normal;
         f.depth = (x - p.point).dot(f.normal);
@@ -149,7 +160,7 @@ private:
     }
 
     scalar reach_;
-    surfaceSearch search_;
+    surfaceSearch search_, rim_;
     raster raster_;
     bool twoSided_;
     List<vector> area_;
@@ -161,6 +172,18 @@ std::unique_ptr<patchSurface> patchSurface::triangles(triSurface surface, const 
                                                       scalar reach, bool twoSided)
 {
     return std::make_unique<triangulatedSurface>(std::move(surface), group, reach, twoSided);
+}
+
+surfaceFoot footSequence::find(const vector& x)
+{
+    constexpr scalar rounding = 1e-9;
+    scalar least = std::numeric_limits<scalar>::max();
+    for (label k = 0; k < std::min(found_, length); ++k)
+        least = std::min(least, (x - last_[k]).squaredNorm());
+    const surfaceFoot f =
+        found_ > 0 ? surface_.find(x, (1 + rounding) * std::sqrt(least)) : surface_.find(x);
+    if (f.found) last_[found_++ % length] = f.nearest;
+    return f;
 }
 
 vector nonZero(const dictionary& dict, const word& key, const dimensionSet& wanted)

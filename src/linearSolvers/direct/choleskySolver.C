@@ -4,7 +4,6 @@
 #include "constantNullSpace.H"
 #include "messages.H"
 #include "oneBlasThread.H"
-#include "supernodalFactor.H"
 #include <cholmod.h>
 
 namespace ispf
@@ -17,8 +16,6 @@ struct choleskySolver::cholmod
     List<SuiteSparse_long> start, row;  // lower triangle by columns
     List<scalar> value;
     constantNullSpace nullSpace;
-    supernodalFactor single;  // factor of the block form
-    mutable List<float> singleRight, singleSolution;
     cholmod_dense* right = nullptr;
     // cholmod_l_solve2 keeps these from call to call
     cholmod_dense *solution = nullptr, *scratch1 = nullptr, *scratch2 = nullptr;
@@ -117,13 +114,6 @@ void choleskySolver::factorise(const csrMatrix& A)
     c.checkStatus("the factorisation");
 }
 
-void choleskySolver::factorise(const blockMatrix3& A)
-{
-    cholmod_->common.supernodal = CHOLMOD_SUPERNODAL;
-    factorise(A.expanded());
-    cholmod_->single.copy(*cholmod_->factor);
-}
-
 void choleskySolver::cholmod::solve()
 {
     const oneBlasThread guard;
@@ -145,21 +135,6 @@ void choleskySolver::apply(const List<scalar>& r, List<scalar>& z) const
     const scalar* x = static_cast<const scalar*>(c.solution->x);
     z.assign(x, x + r.size());
     c.nullSpace.project(z);
-}
-
-void choleskySolver::apply(const List<vec4>& r, List<vec4>& z) const
-{
-    cholmod& c = *cholmod_;
-    if (3 * label(r.size()) != c.single.size())
-        throw fatalError("choleskySolver: " + std::to_string(r.size()) +
-                         " points for a factor of " + std::to_string(c.size()) +
-                         " rows (three per point)");
-    List<float>&b = c.singleRight, &x = c.singleSolution;
-    b.resize(c.single.size());
-    for (size_t i = 0; i < r.size(); ++i)
-        for (int d = 0; d < 3; ++d) b[3 * i + d] = float(r[i][d]);
-    c.single.solve(b, x);
-    for (size_t i = 0; i < r.size(); ++i) z[i].s = simd4{x[3 * i], x[3 * i + 1], x[3 * i + 2], 0};
 }
 
 scalar choleskySolver::nFactorEntries() const

@@ -28,60 +28,11 @@ ISPF_HOT void productRange(const blockMatrix3& A, label begin, label end, const 
     }
 }
 
-// Diagonal block of row i, plus the off-diagonal blocks of the row in its own column
-tensor wholeDiagonal(const blockMatrix3& A, label i)
-{
-    tensor D = A.diagonal[i];
-    for (label k = A.rowStart[i]; k < A.rowStart[i + 1]; ++k)
-        if (A.column[k] == i) D += A.value[k];
-    return D;
-}
-
 }  // namespace
 
 void blockMatrix3::apply(const List<vec4>& x, List<vec4>& y) const
 {
     parallelFor(size(), [&](label i, label e) { productRange(*this, i, e, x.data(), y.data()); });
-}
-
-csrMatrix blockMatrix3::thirdOfTrace() const
-{
-    csrMatrix A;
-    A.rowStart.assign(1, 0), A.diagonal.resize(size());
-    for (label i = 0; i < size(); ++i)
-    {
-        for (label k = rowStart[i]; k < rowStart[i + 1]; ++k)
-            if (column[k] != i)
-                A.column.push_back(column[k]), A.value.push_back(value[k].trace() / 3);
-        A.rowStart.push_back(label(A.column.size()));
-        A.diagonal[i] = wholeDiagonal(*this, i).trace() / 3;
-    }
-    return A;
-}
-
-csrMatrix blockMatrix3::expanded() const
-{
-    csrMatrix A;
-    A.rowStart.assign(1, 0);
-    A.rowStart.reserve(3 * size() + 1), A.diagonal.reserve(3 * size());
-    A.column.reserve(9 * value.size() + 6 * size()), A.value.reserve(A.column.capacity());
-    const auto add = [&](label i, int r, label j, int c, scalar v) {
-        if (i != j || r != c) A.column.push_back(3 * j + c), A.value.push_back(v);
-    };
-    for (label i = 0; i < size(); ++i)
-    {
-        const tensor D = wholeDiagonal(*this, i);
-        for (int r = 0; r < 3; ++r)
-        {
-            for (int c = 0; c < 3; ++c) add(i, r, i, c, D(r, c));
-            for (label k = rowStart[i]; k < rowStart[i + 1]; ++k)
-                for (int c = 0; c < 3 && column[k] != i; ++c)
-                    add(i, r, column[k], c, value[k](r, c));
-            A.diagonal.push_back(D(r, r));
-            A.rowStart.push_back(label(A.column.size()));
-        }
-    }
-    return A;
 }
 
 }  // namespace ispf

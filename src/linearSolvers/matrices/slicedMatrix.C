@@ -20,8 +20,7 @@ struct slices
 };
 
 // sum = A x on the 16 rows of slice s
-template <class V>
-ISPF_INLINE void sliceProduct(const slices& A, label s, const V* x, V* sum)
+ISPF_INLINE void sliceProduct(const slices& A, label s, const float* x, float* sum)
 {
     for (label q = 0; q < width; ++q) sum[q] = A.diagonal[s * width + q] * x[s * width + q];
     for (label k = A.start[s]; k < A.start[s + 1]; ++k)
@@ -34,69 +33,37 @@ ISPF_INLINE void sliceProduct(const slices& A, label s, const V* x, V* sum)
     }
 }
 
-template <class V>
-ISPF_INLINE void multiplySlices(const slices& A, label s, label end, const V* x, V* y)
+ISPF_HOT void multiplySlices(const slices& A, label s, label end, const float* x, float* y)
 {
     for (; s < end; ++s)
     {
-        V sum[width];
+        float sum[width];
         sliceProduct(A, s, x, sum);
         for (label q = 0; q < width; ++q) y[s * width + q] = sum[q];
     }
 }
 
-template <class V>
-ISPF_INLINE void residualSlices(const slices& A, label s, label end, const V* b, const V* x, V* r)
+ISPF_HOT void residualSlices(const slices& A, label s, label end, const float* b, const float* x,
+                             float* r)
 {
     for (; s < end; ++s)
     {
-        V sum[width];
+        float sum[width];
         sliceProduct(A, s, x, sum);
         for (label q = 0; q < width; ++q) r[s * width + q] = b[s * width + q] - sum[q];
     }
 }
 
-template <class V>
-ISPF_INLINE void smoothSlices(const slices& A, label s, label end, const float* relax, const V* b,
-                              const V* x, V* y)
+ISPF_HOT void smoothSlices(const slices& A, label s, label end, const float* relax, const float* b,
+                           const float* x, float* y)
 {
     for (; s < end; ++s)
     {
-        V sum[width];
+        float sum[width];
         sliceProduct(A, s, x, sum);
         for (label q = 0, i = s * width; q < width; ++q, ++i)
             y[i] = x[i] + relax[i] * (b[i] - sum[q]);
     }
-}
-
-// ISPF_HOT needs plain functions, so both instances are written out
-ISPF_HOT void hotMultiply(const slices& A, label s, label e, const float* x, float* y)
-{
-    multiplySlices(A, s, e, x, y);
-}
-ISPF_HOT void hotMultiply(const slices& A, label s, label e, const float4* x, float4* y)
-{
-    multiplySlices(A, s, e, x, y);
-}
-ISPF_HOT void hotResidual(const slices& A, label s, label e, const float* b, const float* x,
-                          float* r)
-{
-    residualSlices(A, s, e, b, x, r);
-}
-ISPF_HOT void hotResidual(const slices& A, label s, label e, const float4* b, const float4* x,
-                          float4* r)
-{
-    residualSlices(A, s, e, b, x, r);
-}
-ISPF_HOT void hotSmooth(const slices& A, label s, label e, const float* relax, const float* b,
-                        const float* x, float* y)
-{
-    smoothSlices(A, s, e, relax, b, x, y);
-}
-ISPF_HOT void hotSmooth(const slices& A, label s, label e, const float* relax, const float4* b,
-                        const float4* x, float4* y)
-{
-    smoothSlices(A, s, e, relax, b, x, y);
 }
 
 }  // namespace
@@ -149,43 +116,33 @@ bool slicedMatrix::hasEntries(label i) const
     return false;
 }
 
-template <class V>
-void slicedMatrix::multiply(const List<V>& x, List<V>& y) const
+void slicedMatrix::multiply(const List<float>& x, List<float>& y) const
 {
     const slices A{start_.data(), column_.data(), value_.data(), diagonal_.data()};
     parallelFor(
-        padded(n_) / width, [&](label s, label e) { hotMultiply(A, s, e, x.data(), y.data()); },
+        padded(n_) / width, [&](label s, label e) { multiplySlices(A, s, e, x.data(), y.data()); },
         levelGrain / width);
 }
 
-template <class V>
-void slicedMatrix::residual(const List<V>& b, const List<V>& x, List<V>& r) const
-{
-    const slices A{start_.data(), column_.data(), value_.data(), diagonal_.data()};
-    parallelFor(
-        padded(n_) / width,
-        [&](label s, label e) { hotResidual(A, s, e, b.data(), x.data(), r.data()); },
-        levelGrain / width);
-}
-
-template <class V>
-void slicedMatrix::smooth(const List<float>& relax, const List<V>& b, const List<V>& x,
-                          List<V>& y) const
+void slicedMatrix::residual(const List<float>& b, const List<float>& x, List<float>& r) const
 {
     const slices A{start_.data(), column_.data(), value_.data(), diagonal_.data()};
     parallelFor(
         padded(n_) / width,
-        [&](label s, label e) { hotSmooth(A, s, e, relax.data(), b.data(), x.data(), y.data()); },
+        [&](label s, label e) { residualSlices(A, s, e, b.data(), x.data(), r.data()); },
         levelGrain / width);
 }
 
-#define INSTANTIATE(V)                                                                     \
-    template void slicedMatrix::multiply(const List<V>&, List<V>&) const;                  \
-    template void slicedMatrix::residual(const List<V>&, const List<V>&, List<V>&) const;  \
-    template void slicedMatrix::smooth(const List<float>&, const List<V>&, const List<V>&, \
-                                       List<V>&) const;
-INSTANTIATE(float)
-INSTANTIATE(float4)
-#undef INSTANTIATE
+void slicedMatrix::smooth(const List<float>& relax, const List<float>& b, const List<float>& x,
+                          List<float>& y) const
+{
+    const slices A{start_.data(), column_.data(), value_.data(), diagonal_.data()};
+    parallelFor(
+        padded(n_) / width,
+        [&](label s, label e) {
+            smoothSlices(A, s, e, relax.data(), b.data(), x.data(), y.data());
+        },
+        levelGrain / width);
+}
 
 }  // namespace ispf

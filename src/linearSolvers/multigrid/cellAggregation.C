@@ -2,6 +2,8 @@
 #include "cellAggregation.H"
 
 #include "disjointSets.H"
+#include "elasticLevel.H"
+#include "multigridLevel.H"
 #include <algorithm>
 #include <array>
 
@@ -58,25 +60,25 @@ buckets sortByCell(const List<float4>& point, float cellSize)
 }
 
 // Joins the connected rows at the places [begin, end); the root of a set is its first place
-void joinBucket(const multigridLevel& level, const buckets& sorted, label begin, label end,
+template <class Level>
+void joinBucket(const Level& level, const buckets& sorted, label begin, label end,
                 List<label>& parent)
 {
     label nSets = end - begin;
     for (label p = begin; p < end && nSets > 1; ++p)
     {
         const label i = sorted.row[p];
-        level.A.forRow(i, [&](label j, float) {
+        level.forCoupled(i, [&](label j) {
             const label q = sorted.place[j];
-            if (q < begin || q >= end) return;
-            if (!level.follows(i, j) || !level.follows(j, i)) return;
-            nSets -= join(parent, p, q);
+            if (q >= begin && q < end && level.mayJoin(i, j)) nSets -= join(parent, p, q);
         });
     }
 }
 
 }  // namespace
 
-cellAggregates aggregateByCell(const multigridLevel& level, float cellSize)
+template <class Level>
+cellAggregates aggregateByCell(const Level& level, float cellSize)
 {
     const label n = level.size();
     const buckets sorted = sortByCell(level.point, cellSize);
@@ -89,7 +91,7 @@ cellAggregates aggregateByCell(const multigridLevel& level, float cellSize)
             for (label p = begin; p < end; ++p) parent[p] = p;
             joinBucket(level, sorted, begin, end, parent);
             for (label p = begin; p < end; ++p)
-                nSets[c + 1] += parent[p] == p && level.A.hasEntries(sorted.row[p]);
+                nSets[c + 1] += parent[p] == p && level.hasCouplings(sorted.row[p]);
         }
     });
     for (label c = 0; c < nBuckets; ++c) nSets[c + 1] += nSets[c];
@@ -103,7 +105,7 @@ cellAggregates aggregateByCell(const multigridLevel& level, float cellSize)
         {
             const label i = sorted.row[p];
             if (parent[p] != p) result.of[i] = result.of[sorted.row[representative(parent, p)]];
-            else if (level.A.hasEntries(i)) result.of[i] = next++;
+            else if (level.hasCouplings(i)) result.of[i] = next++;
             if (result.of[i] >= 0) ++result.start[result.of[i] + 1];
         }
     for (label a = 0; a < result.n; ++a) result.start[a + 1] += result.start[a];
@@ -113,5 +115,9 @@ cellAggregates aggregateByCell(const multigridLevel& level, float cellSize)
         if (result.of[i] >= 0) result.member[next[result.of[i]]++] = i;
     return result;
 }
+
+template cellAggregates aggregateByCell(const multigridLevel&, float);
+template cellAggregates aggregateByCell(const elasticLevel<3>&, float);
+template cellAggregates aggregateByCell(const elasticLevel<6>&, float);
 
 }  // namespace ispf

@@ -33,20 +33,8 @@ ISPF_HOT void combineRange(float a, const float* x, float b, float* y, label n)
     for (label i = 0; i < n; ++i) y[i] = a * x[i] + b * y[i];
 }
 
-template <class V>
-const float* flat(const List<V>& v, size_t i)
-{
-    return reinterpret_cast<const float*>(v.data() + i);
-}
-template <class V>
-float* flat(List<V>& v, size_t i)
-{
-    return reinterpret_cast<float*>(v.data() + i);
-}
-
 // x = factor b, entry by entry
-template <class V>
-void scale(const List<float>& factor, const List<V>& b, List<V>& x)
+void scale(const List<float>& factor, const List<float>& b, List<float>& x)
 {
     parallelFor(
         label(x.size()),
@@ -56,35 +44,22 @@ void scale(const List<float>& factor, const List<V>& b, List<V>& x)
         levelGrain);
 }
 
-template <class V>
-constexpr label lanes = sizeof(V) / sizeof(float);
-
-template <class V>
-scalar dotRange(const List<V>& a, const List<V>& b, label i, label e)
-{
-    return dotRange(flat(a, i), flat(b, i), (e - i) * lanes<V>);
-}
-
-template <class V>
-void combine(scalar a, const List<V>& x, scalar b, List<V>& y)
+void combine(scalar a, const List<float>& x, scalar b, List<float>& y)
 {
     parallelFor(
         label(y.size()),
-        [&](label i, label e) {
-            combineRange(float(a), flat(x, i), float(b), flat(y, i), (e - i) * lanes<V>);
-        },
+        [&](label i, label e) { combineRange(float(a), &x[i], float(b), &y[i], e - i); },
         levelGrain);
 }
 
 }  // namespace
 
-template <class V>
 struct cellMultigrid::workspace
 {
     struct vectors
     {
-        List<V> b, x, r;
-        List<V> c, v;  // K-cycle: first correction and A times it
+        List<float> b, x, r;
+        List<float> c, v;  // K-cycle: first correction and A times it
     };
     List<vectors> at;
 
@@ -94,8 +69,8 @@ struct cellMultigrid::workspace
         for (size_t l = 0; l < levels.size(); ++l)
         {
             const label n = slicedMatrix::padded(levels[l].size());
-            for (List<V>* v : {&at[l].b, &at[l].x, &at[l].r}) v->assign(n, V{});
-            if (kCycle && l > 0) at[l].c.assign(n, V{}), at[l].v.assign(n, V{});
+            for (List<float>* v : {&at[l].b, &at[l].x, &at[l].r}) v->assign(n, 0);
+            if (kCycle && l > 0) at[l].c.assign(n, 0), at[l].v.assign(n, 0);
         }
     }
 };
@@ -109,7 +84,7 @@ void multigridOptions::read(const dictionary& dict)
 
 cellMultigrid::cellMultigrid(const csrMatrix& A, const List<vector>& x,
                              const multigridOptions& options, const List<std::uint8_t>& group)
-    : options_(options), work1_(new workspace<float>)
+    : options_(options), work_(new workspace)
 {
     if (!(options.cellSize > 0))
         throw fatalError("cellMultigrid: the cell size (the support of the kernel) must be given");
@@ -127,8 +102,7 @@ void cellMultigrid::rebuild(const csrMatrix& A, const List<vector>& x,
     buildLevels();
     buildNullSpace();
     setRelaxation();
-    work1_->resize(level_, options_.cycle == "K");
-    if (work3_) work3_->resize(level_, options_.cycle == "K");
+    work_->resize(level_, options_.cycle == "K");
 }
 
 cellMultigrid::~cellMultigrid() = default;
@@ -253,8 +227,7 @@ void cellMultigrid::setRelaxation()
 }
 
 // x = an approximation of A^-1 b on level l
-template <class V>
-void cellMultigrid::cycle(workspace<V>& work, label l) const
+void cellMultigrid::cycle(workspace& work, label l) const
 {
     const slicedMatrix& A = level_[l].A;
     auto& w = work.at[l];
@@ -270,8 +243,7 @@ void cellMultigrid::cycle(workspace<V>& work, label l) const
 
 // One cycle; with the K-cycle at most two steps of flexible conjugate gradients that it
 // preconditions.  Y. Notay, P. S. Vassilevski, Numer. Linear Algebra Appl. 15 (2008) 473.
-template <class V>
-void cellMultigrid::solveCoarse(workspace<V>& work, label l) const
+void cellMultigrid::solveCoarse(workspace& work, label l) const
 {
     cycle(work, l);
     if (options_.cycle == "V" || l + 1 == label(level_.size())) return;
@@ -283,23 +255,23 @@ void cellMultigrid::solveCoarse(workspace<V>& work, label l) const
     w.c.swap(w.x);
     A.multiply(w.c, w.v);
     const auto first = blockSums(n, 3, [&](label i, label e, scalar* sum) {
-        sum[0] = dotRange(w.c, w.v, i, e);
-        sum[1] = dotRange(w.c, w.b, i, e);
-        sum[2] = dotRange(w.b, w.b, i, e);
+        sum[0] = dotRange(&w.c[i], &w.v[i], e - i);
+        sum[1] = dotRange(&w.c[i], &w.b[i], e - i);
+        sum[2] = dotRange(&w.b[i], &w.b[i], e - i);
     });
     if (!(first[0] > 0)) return w.c.swap(w.x);
     const scalar alpha = first[1] / first[0];
     combine(-alpha, w.v, 1, w.b);
-    const auto rr =
-        blockSums(n, 1, [&](label i, label e, scalar* sum) { sum[0] = dotRange(w.b, w.b, i, e); });
+    const auto rr = blockSums(
+        n, 1, [&](label i, label e, scalar* sum) { sum[0] = dotRange(&w.b[i], &w.b[i], e - i); });
     if (rr[0] <= goodEnough * goodEnough * first[2]) return combine(alpha, w.c, 0, w.x);
 
     cycle(work, l);
     A.multiply(w.x, w.r);
     const auto second = blockSums(n, 3, [&](label i, label e, scalar* sum) {
-        sum[0] = dotRange(w.x, w.v, i, e);
-        sum[1] = dotRange(w.x, w.r, i, e);
-        sum[2] = dotRange(w.x, w.b, i, e);
+        sum[0] = dotRange(&w.x[i], &w.v[i], e - i);
+        sum[1] = dotRange(&w.x[i], &w.r[i], e - i);
+        sum[2] = dotRange(&w.x[i], &w.b[i], e - i);
     });
     const scalar rho = second[1] - second[0] * second[0] / first[0];
     if (!(rho > 0)) return combine(alpha, w.c, 0, w.x);
@@ -315,50 +287,15 @@ void cellMultigrid::apply(const List<scalar>& r, List<scalar>& z) const
     const scalar rms = norm(right) / std::sqrt(scalar(std::max(n, 1)));
     if (rms == 0) return z.assign(n, 0);
 
-    auto& finest = work1_->at[0];
+    auto& finest = work_->at[0];
     parallelFor(n, [&](label i, label e) {
         for (; i < e; ++i) finest.b[i] = float(right[i] / rms);
     });
-    cycle(*work1_, 0);
+    cycle(*work_, 0);
     parallelFor(n, [&](label i, label e) {
         for (; i < e; ++i) z[i] = finest.x[i] * (rms / matrixScale_);
     });
     nullSpace_.project(z);
-}
-
-void cellMultigrid::applyBlock3(const List<vec4>& r, List<vec4>& z) const
-{
-    if (!work3_)
-    {
-        work3_ = std::make_unique<workspace<float4>>();
-        work3_->resize(level_, options_.cycle == "K");
-    }
-    const label n = level_[0].size();
-    const scalar squares = parallelSum(n, [&](label i, label e) {
-        simd4 sum = {};
-        for (; i < e; ++i) sum += r[i].s * r[i].s;
-        return sum[0] + sum[1] + sum[2];
-    });
-    const scalar rms = std::sqrt(squares / std::max(n, 1));
-    if (rms == 0) return z.assign(n, vec4{});
-
-    auto& finest = work3_->at[0];
-    parallelFor(n, [&](label i, label e) {
-        for (; i < e; ++i)
-        {
-            const simd4 v = r[i].s / rms;
-            finest.b[i] = float4{float(v[0]), float(v[1]), float(v[2]), 0};
-        }
-    });
-    cycle(*work3_, 0);
-    parallelFor(n, [&](label i, label e) {
-        const scalar back = rms / matrixScale_;
-        for (; i < e; ++i)
-        {
-            const float4 v = finest.x[i];
-            z[i].s = simd4{v[0] * back, v[1] * back, v[2] * back, 0};
-        }
-    });
 }
 
 }  // namespace ispf

@@ -9,13 +9,12 @@ namespace ispf
 namespace
 {
 
-template <class V>
-ISPF_INLINE void restrictRows(label c, label end, const label* start, const std::int32_t* fine,
-                              const float* weight, const V* r, V* coarse)
+ISPF_HOT void restrictRows(label c, label end, const label* start, const std::int32_t* fine,
+                           const float* weight, const float* r, float* coarse)
 {
     for (; c < end; ++c)
     {
-        V sum = {}, odd = {};
+        float sum = {}, odd = {};
         label k = start[c];
         for (; k + 2 <= start[c + 1]; k += 2)
         {
@@ -27,37 +26,15 @@ ISPF_INLINE void restrictRows(label c, label end, const label* start, const std:
     }
 }
 
-template <class V>
-ISPF_INLINE void prolongRows(label i, label end, const std::int32_t* c, const float* w,
-                             const V* coarse, V* x)
+ISPF_HOT void prolongRows(label i, label end, const std::int32_t* c, const float* w,
+                          const float* coarse, float* x)
 {
     for (; i < end; ++i, c += 8, w += 8)
     {
-        V sum = {};
+        float sum = {};
         for (int q = 0; q < 8; ++q) sum += w[q] * coarse[c[q]];
         x[i] += sum;
     }
-}
-
-ISPF_HOT void hotRestrict(label c, label e, const label* start, const std::int32_t* fine,
-                          const float* weight, const float* r, float* coarse)
-{
-    restrictRows(c, e, start, fine, weight, r, coarse);
-}
-ISPF_HOT void hotRestrict(label c, label e, const label* start, const std::int32_t* fine,
-                          const float* weight, const float4* r, float4* coarse)
-{
-    restrictRows(c, e, start, fine, weight, r, coarse);
-}
-ISPF_HOT void hotProlong(label i, label e, const std::int32_t* c, const float* w,
-                         const float* coarse, float* x)
-{
-    prolongRows(i, e, c, w, coarse, x);
-}
-ISPF_HOT void hotProlong(label i, label e, const std::int32_t* c, const float* w,
-                         const float4* coarse, float4* x)
-{
-    prolongRows(i, e, c, w, coarse, x);
 }
 
 // The aggregates from which the rows of one aggregate may interpolate; the aggregate itself is first
@@ -157,33 +134,26 @@ void cellTransfer::transpose()
         }
 }
 
-template <class V>
-void cellTransfer::restrictTo(const List<V>& fine, List<V>& coarse) const
+void cellTransfer::restrictTo(const List<float>& fine, List<float>& coarse) const
 {
     parallelFor(
         nCoarse_,
         [&](label c, label e) {
-            hotRestrict(c, e, start_.data(), fine_.data(), fineWeight_.data(), fine.data(),
-                        coarse.data());
+            restrictRows(c, e, start_.data(), fine_.data(), fineWeight_.data(), fine.data(),
+                         coarse.data());
         },
         levelGrain / 8);
 }
 
-template <class V>
-void cellTransfer::prolongAdd(const List<V>& coarse, List<V>& fine) const
+void cellTransfer::prolongAdd(const List<float>& coarse, List<float>& fine) const
 {
     parallelFor(
         nFine_,
         [&](label i, label e) {
-            hotProlong(i, e, &coarse_[most * size_t(i)], &weight_[most * size_t(i)], coarse.data(),
-                       fine.data());
+            prolongRows(i, e, &coarse_[most * size_t(i)], &weight_[most * size_t(i)], coarse.data(),
+                        fine.data());
         },
         levelGrain);
 }
-
-template void cellTransfer::restrictTo(const List<float>&, List<float>&) const;
-template void cellTransfer::restrictTo(const List<float4>&, List<float4>&) const;
-template void cellTransfer::prolongAdd(const List<float>&, List<float>&) const;
-template void cellTransfer::prolongAdd(const List<float4>&, List<float4>&) const;
 
 }  // namespace ispf

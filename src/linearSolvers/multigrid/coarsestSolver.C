@@ -23,22 +23,13 @@ coarsestSolver::coarsestSolver(const slicedMatrix& A, const List<label>& pinned)
     if (!row_.empty()) factors_.compute(dense);
 }
 
-template <class V>
-void coarsestSolver::solve(const List<V>& b, List<V>& x) const
+void coarsestSolver::solve(const List<float>& b, List<float>& x) const
 {
     if (row_.empty()) return;
-    constexpr label lanes = sizeof(V) / sizeof(float);
-    const float* right = reinterpret_cast<const float*>(b.data());
-    float* left = reinterpret_cast<float*>(x.data());
-    Eigen::MatrixXd values(row_.size(), lanes);
-    for (size_t k = 0; k < row_.size(); ++k)
-        for (label c = 0; c < lanes; ++c) values(k, c) = right[row_[k] * lanes + c];
+    Eigen::VectorXd values(row_.size());
+    for (size_t k = 0; k < row_.size(); ++k) values[k] = b[row_[k]];
     values = factors_.solve(values);
-    for (size_t k = 0; k < row_.size(); ++k)
-        for (label c = 0; c < lanes; ++c) left[row_[k] * lanes + c] = float(values(k, c));
+    for (size_t k = 0; k < row_.size(); ++k) x[row_[k]] = float(values[k]);
 }
-
-template void coarsestSolver::solve(const List<float>&, List<float>&) const;
-template void coarsestSolver::solve(const List<float4>&, List<float4>&) const;
 
 }  // namespace ispf

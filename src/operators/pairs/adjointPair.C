@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "adjointPair.H"
 
-#include "slicedMatrix.H"
-
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -28,9 +26,9 @@ struct view
     // a_ij of entry k.  Components from nDims on are those of the next entry
     ISPF_INLINE simd4 face(std::int64_t k) const
     {
-        float4 a;
+        simd4 a;
         std::memcpy(&a, faces.a.data() + faces.nDims * k, sizeof a);
-        return __builtin_convertvector(a, simd4);
+        return a;
     }
     simd4 inSpace() const { return simd4{1, 1, faces.nDims == 3 ? 1.0 : 0.0, 0}; }
 };

@@ -117,7 +117,7 @@ ISPF_HOT void sizeRange(const view& v, label begin, label end, scalar* size)
 }
 
 // Writes a_ij to `a` and sum_j a_ij + b_i to `left`
-ISPF_HOT void writeRange(const view& v, const vec4* b, int nDims, label begin, label end, float* a,
+ISPF_HOT void writeRange(const view& v, const vec4* b, int nDims, label begin, label end, scalar* a,
                          vec4* left)
 {
     for (label i = begin; i < end; ++i)
@@ -125,10 +125,10 @@ ISPF_HOT void writeRange(const view& v, const vec4* b, int nDims, label begin, l
         simd4 sum = b[i].s * inSpace;
         forNeighbours(v, v.row(i), [&](pairIndex k, label j) {
             const simd4 face = -v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j));
-            float* kept = a + nDims * k;
-            simd4 stored = {};
-            for (int d = 0; d < nDims; ++d) stored[d] = kept[d] = float(face[d]);
-            sum += stored;
+            sum += face;
+            scalar* kept = a + nDims * k;
+            kept[0] = face[0], kept[1] = face[1];
+            if (nDims == 3) kept[2] = face[2];
         });
         left[i].s = sum;
     }

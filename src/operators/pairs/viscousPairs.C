@@ -34,11 +34,11 @@ void viscousPairs::setup(const stencil& s)
     });
 }
 
-void viscousPairs::apply(const List<vec4>& phi, List<vec4>& result) const
+void viscousPairs::apply(const List<vec4>& phi, List<vec4>& result, label first) const
 {
     result.resize(cloud_->n());
-    parallelFor(cloud_->n(), [&](label begin, label end) {
-        applyRange(*list_, K_.data(), phi.data(), begin, end, result.data());
+    parallelFor(cloud_->n() - first, [&](label begin, label end) {
+        applyRange(*list_, K_.data(), phi.data(), first + begin, first + end, result.data());
     });
 }
 
@@ -74,21 +74,6 @@ viscousPairs::power viscousPairs::powerOf(const List<vec4>& u) const
         of[0] = sum.dissipated, of[1] = sum.walls, of[2] = sum.faces;
     });
     return {sums[0], sums[1], sums[2]};
-}
-
-void viscousPairs::neighbours(const List<vec4>& phi, List<vec4>& result) const
-{
-    result.resize(cloud_->n());
-    parallelFor(cloud_->n(), [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-        {
-            simd4 sum = {};
-            forNeighbours<among::all>(*list_, i, [&](pairIndex k, label j) {
-                if (cloud_->phase[j] != phaseType::rigid) sum += K_[k] * phi[j].s;
-            });
-            result[i].s = sum;
-        }
-    });
 }
 
 }  // namespace ispf

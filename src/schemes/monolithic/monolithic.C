@@ -11,7 +11,7 @@
 //         divergenceDefect yes; // the next step corrects what the rates of a step miss: for the area of the surface,
 //                               // see enclosedFluid.H; for the volume of a solid that turns, volumeConstraint.H
 //         newton { maxIter 1; tolerance 1e-5; }    // see elasticStep.H
-//         beta 1; multigrid {..} solid { solver direct; refactorInterval 10; }
+//         beta 1; multigrid {..}
 //     }
 //     shifting { ... }     densityFeedback 0;
 #include "closedBodies.H"
@@ -62,7 +62,7 @@ struct monolithicEntries
           makesGood(dict.getOrDefault("divergenceDefect", true))
     {
         if (hasSolid) return;
-        for (const char* entry : {"theta", "volumeFeedback", "divergenceDefect", "solid", "newton"})
+        for (const char* entry : {"theta", "volumeFeedback", "divergenceDefect", "newton"})
             if (dict.found(entry))
                 dict.fail(entry, "It acts on a solid, and this case has none. Leave it away");
     }
@@ -97,14 +97,12 @@ public:
         system_.enclosed().makeGood(makesGood_);
         if (!c.structure) return;
         c.cloud.scalars[missedField].resize(c.cloud.n(), 0);
-        preconditioner_.restore(elastic_.tangent());
         volume_ = std::make_unique<volumeConstraint>(*c.structure);
     }
 
 private:
     stepLimit admitted() const override;
     word attempt(scalar t, scalar dt) override;
-    void keep() override { preconditioner_.keep(c_.cloud); }
     word advice() const override;
 
     void structureState();
@@ -282,7 +280,7 @@ word monolithic::solve(scalar dt, List<scalar>& z)
         density_.addTo(q, system_.rows().pair(),
                        drainedFluid(cloud, c_.list, system_.enclosed().bodyOf()), dt);
     system_.enclosed().addDefect(q);
-    preconditioner_.setup(elastic_.start());
+    preconditioner_.setup();
 
     z = guess();
     solverControls controls;

@@ -4,20 +4,8 @@
 namespace ispf
 {
 
-namespace
-{
-
-// Share of the Laplacian's solution that the solid takes.  There D A^-1 G is stiffer than the pair
-// Laplacian with the diagonal of A.  The whole solution (1) costs more iterations in every step of the HCC,
-// none (0) more in the first steps
-constexpr scalar solidShare = 0.3;
-
-const word solidFactor = "solidFactor";
-
-}  // namespace
-
 monolithicPreconditioner::entries::entries(const dictionary& dict)
-    : beta(dict.getInRangeOrDefault("beta", 0, 10, 1)), solid(dict.subOrEmptyDict("solid"))
+    : beta(dict.getInRangeOrDefault("beta", 0, 10, 1))
 {
     // One V-cycle costs FGMRES least
     multigrid.cycle = "V", multigrid.omega = 1.2;
@@ -25,11 +13,11 @@ monolithicPreconditioner::entries::entries(const dictionary& dict)
 }
 
 monolithicPreconditioner::monolithicPreconditioner(const coupledSystem& system, const entries& e)
-    : system_(system), options_(e.multigrid), beta_(e.beta), solid_(e.solid)
+    : system_(system), options_(e.multigrid), beta_(e.beta)
 {
 }
 
-void monolithicPreconditioner::setup(const List<vec4>& springsAt)
+void monolithicPreconditioner::setup()
 {
     const fsiCase& c = system_.fsi();
     const particleCloud& cloud = c.cloud;
@@ -38,7 +26,7 @@ void monolithicPreconditioner::setup(const List<vec4>& springsAt)
         for (label i = 0; i < cloud.nSolid(); ++i)
             bulk_[i] += beta_ * c.structure->shearModulus() * system_.dt();
     if (system_.tangent())
-        solid_.setup(*system_.tangent(), system_.dt(), system_.diagonal(), cloud, springsAt,
+        solid_.setup(*system_.tangent(), system_.dt(), system_.diagonal(), cloud,
                      c.kernel->support());
 
     buildLaplacian();
@@ -51,39 +39,29 @@ void monolithicPreconditioner::setup(const List<vec4>& springsAt)
     else multigrid_ = std::make_unique<cellMultigrid>(L_, position, options_, group);
 }
 
-void monolithicPreconditioner::keep(particleCloud& cloud) const
-{
-    cloud.history[solidFactor] = solid_.state();
-}
-
-void monolithicPreconditioner::restore(blockMatrix3& K)
-{
-    const fsiCase& c = system_.fsi();
-    if (const auto kept = c.cloud.history.find(solidFactor); kept != c.cloud.history.end())
-        solid_.restore(kept->second, *c.structure, c.cloud, K);
-}
-
 void monolithicPreconditioner::buildLaplacian()
 {
     const fsiCase& c = system_.fsi();
     const particleCloud& cloud = c.cloud;
     const label n = cloud.n();
-    const List<scalar> stiffness = system_.rows().pair().stiffness();
-    const auto tau = [&](label i) {
-        return cloud.isFluid(i) ? stiffness[i] * system_.dt() / c.rho : system_.tau()[i];
+    const scalar free = system_.dt() / c.rho;
+    // a neighbour of the other phase: a solid yields little to the fluid, fluid gives way to a solid
+    const auto tauBeside = [&](label i, label j) {
+        return cloud.isFluid(i) ? 2 * free * system_.tau()[j] / (free + system_.tau()[j]) : free;
     };
 
     // Row i: sum_j -2 F_ij tau_ij (p_i - p_j).  Images count for their source, rigid neighbours are left out
-    // (dp/dn = 0).  The row of a given pressure has its diagonal alone.
+    // (dp/dn = 0).  The row of a given pressure has its diagonal alone
     const auto row = [&](label i, auto&& entry) {
         scalar d = 0;
         if (cloud.pHeld(i)) return d;
         forNeighbours<among::connected>(c.list, i, [&](pairIndex k, label neighbour) {
             const label j = cloud.ownerOf(neighbour);
             if (j == i) return;
-            const scalar a = -4 * c.list.F[k] * tau(i) * tau(j) / (tau(i) + tau(j));
+            const bool same = k < c.list.mid[i];
+            const scalar a = -2 * c.list.F[k] * (same ? free : tauBeside(i, j));
             d += a;
-            if (k < c.list.mid[i] && !cloud.pHeld(j)) entry(j, -a);
+            if (same && !cloud.pHeld(j)) entry(j, -a);
         });
         return d;
     };
@@ -120,11 +98,14 @@ void monolithicPreconditioner::momentum(const List<scalar>& r, List<vec4>& u) co
     if (system_.tangent()) solid_.solve(A, cloud, u);
 
     cloud.fillGhosts(u, true);
-    system_.rows().viscous().neighbours(u, work_);
+    const viscousPairs& viscous = system_.rows().viscous();
+    viscous.apply(u, work_, nSolid);
     parallelFor(n - nSolid, [&](label begin, label end) {
         for (label i = nSolid + begin; i < nSolid + end; ++i)
         {
-            u[i].s -= system_.viscousFactor() / A[i] * work_[i].s;
+            // sum_j K_ij u_j; walls are at rest here
+            const simd4 beside = work_[i].s + viscous.sum()[i] * u[i].s;
+            u[i].s -= system_.viscousFactor() / A[i] * beside;
             u[i][3] = 0;
         }
     });
@@ -151,8 +132,7 @@ void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) con
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
-            const scalar share = cloud.isFluid(i) ? 1 : solidShare;
-            const scalar p = share * s_[i] - bulk_[i] * div_[i];
+            const scalar p = s_[i] - bulk_[i] * div_[i];
             phi_[i].s = simd4{0, 0, 0, cloud.pHeld(i) ? r[4 * i + 3] : p};
         }
     });

@@ -31,17 +31,18 @@ struct basis
     }
 };
 
-// Orthonormal modes of b with singular values above cut times `greatest`
+// Orthonormal modes of b with singular values above cut times `greatest`.  The squares of the singular values are
+// eigenvalues of at most six normal equations; their rounding is far below cut^2
 basis orthonormal(const basis& b, scalar cut, scalar greatest)
 {
-    const Eigen::JacobiSVD<matrix> svd(b.columns, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    const auto& s = svd.singularValues();
+    using square = Eigen::Matrix<scalar, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+    const Eigen::SelfAdjointEigenSolver<square> squares(square(b.columns.transpose() * b.columns));
+    const auto& s2 = squares.eigenvalues();  // ascending
     Eigen::Index n = 0;
-    while (n < s.size() && s[n] > cut * greatest) ++n;
-    basis q;
-    q.columns = svd.matrixU().leftCols(n);
-    q.atPoint = b.atPoint * svd.matrixV().leftCols(n) * s.head(n).cwiseInverse().asDiagonal();
-    return q;
+    while (n < s2.size() && s2[s2.size() - 1 - n] > cut * cut * greatest * greatest) ++n;
+    const matrix modes =
+        squares.eigenvectors().rightCols(n) * s2.tail(n).cwiseSqrt().cwiseInverse().asDiagonal();
+    return {b.columns * modes, b.atPoint * modes};
 }
 
 }  // namespace
