@@ -47,15 +47,6 @@ structureReference within(structureReference ref, scalar radius)
     return ref;
 }
 
-// q of (5.26) [Pa], for the stress P at F
-scalar tensionNeeded(const tensor& P, const tensor& F, int nDims)
-{
-    const tensor tau = P * F.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        0.5 * (tau + tau.transpose()).topLeftCorner(nDims, nDims), Eigen::EigenvaluesOnly);
-    return std::max(scalar(0), -eigen.eigenvalues()[0]);
-}
-
 class totalLagrangian : public structureModel
 {
 public:
@@ -198,12 +189,7 @@ modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label 
     modulusMatrix C = material_->tangent(F) + volume_.tangent(F);
     const bool plane = ref_.nDims == 2;
     if (plane) keepPlane(C);
-    if (kind == tangentKind::positive)
-    {
-        modulusMatrix turning = tensionNeeded(stressOf(F), F, ref_.nDims) * cofactorSlope(F);
-        if (plane) keepPlane(turning);
-        C = positivePart(C) + positivePart(turning);
-    }
+    if (kind == tangentKind::positive) C = positivePart(C);
     // its rounding would couple the plane with the direction across it, where nothing but inertia resists
     if (plane) keepPlane(C);
     C *= ref_.volume();

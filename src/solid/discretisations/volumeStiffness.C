@@ -10,8 +10,8 @@ tensor volumeStiffness::stress(const tensor& F) const
     return kappa * (J - 1) * J * F.inverse().transpose();
 }
 
-// J [(T : dF) T - T dF^T T] with T = F^-T
-modulusMatrix cofactorSlope(const tensor& F)
+// With T = F^-T: d cof F = J [(T : dF) T - T dF^T T]
+modulusMatrix volumeStiffness::tangent(const tensor& F) const
 {
     const scalar J = F.determinant();
     const tensor T = F.inverse().transpose();
@@ -20,16 +20,9 @@ modulusMatrix cofactorSlope(const tensor& F)
         for (int r = 0; r < 3; ++r)
             for (int d = 0; d < 3; ++d)
                 for (int s = 0; s < 3; ++s)
-                    C(r + 3 * c, s + 3 * d) = J * (T(r, c) * T(s, d) - T(r, d) * T(s, c));
+                    C(r + 3 * c, s + 3 * d) =
+                        kappa * J * ((2 * J - 1) * T(r, c) * T(s, d) - (J - 1) * T(r, d) * T(s, c));
     return C;
-}
-
-modulusMatrix volumeStiffness::tangent(const tensor& F) const
-{
-    const scalar J = F.determinant();
-    const tensor cofactor = J * F.inverse().transpose();
-    const Eigen::Map<const Eigen::Matrix<scalar, 9, 1>> c(cofactor.data());
-    return kappa * (c * c.transpose() + (J - 1) * cofactorSlope(F));
 }
 
 }  // namespace ispf
