@@ -18,7 +18,7 @@ std::vector<candidate> candidates()
         return c;
     };
     candidate today{"today", false}, plain{"plain adjoint"}, open{"symmetric, open"};
-    today.direct = todaysPair, plain.direct = plainAdjoint;
+    today.direct = oneSidedPair, plain.direct = plainAdjoint;
     open.options.closed = open.options.linearAtWall = false;
     std::vector<candidate> list{today, plain, open, faces("faces 3/1, p_i", 3, 1, false)};
     for (const int passes : {1, 2, 6})

@@ -70,7 +70,7 @@ matrix operatorPair::GtG() const
     return matrix(G[0].transpose()) * G[0] + matrix(G[1].transpose()) * G[1];
 }
 
-operatorPair todaysPair(const scene& s)
+operatorPair oneSidedPair(const scene& s)
 {
     operatorPair pair = empty(s);
     correctedDivergence(s, pair);

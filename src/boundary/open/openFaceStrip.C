@@ -66,9 +66,8 @@ void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
 
 void openFace::setVelocity(particleCloud& cloud, label number) const
 {
-    const List<scalar>& slope = cloud.scalars.at(slopeField);
-    List<vec4>&velocity = cloud.vectors[givenVelocity], &gradient = cloud.vectors[givenGradient];
-    velocity.resize(cloud.n(), vec4{}), gradient.resize(cloud.n(), vec4{});
+    List<vec4>& velocity = cloud.vectors[givenVelocity];
+    velocity.resize(cloud.n(), vec4{});
     parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
         for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
         {
@@ -76,7 +75,6 @@ void openFace::setVelocity(particleCloud& cloud, label number) const
             const surfaceFoot& f = known_[i].foot;
             if (!f.found) continue;
             velocity[i] = vec4::from(inflow_->velocity(f.foot, f.normal), number);
-            gradient[i] = vec4::from(slope[i] * f.normal);
             if (f.depth > 0) cloud.uFixed[i] = 1, cloud.Up[i].setXyz(velocity[i].xyz());
         }
     });

@@ -47,9 +47,8 @@ void boundary::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
     std::fill(cloud.uFixed.begin() + cloud.nSolid(), cloud.uFixed.end(), 0);
     for (const auto& [i, w] : content_->clamped)
         cloud.Up[i].setXyz(content_->walls.walls()[w].surfaceVelocity.at(cloud.x[i].xyz()));
-    for (const word& name : {givenVelocity, givenGradient})
-        if (const auto given = cloud.vectors.find(name); given != cloud.vectors.end())
-            std::fill(given->second.begin(), given->second.end(), vec4{});
+    if (const auto given = cloud.vectors.find(givenVelocity); given != cloud.vectors.end())
+        std::fill(given->second.begin(), given->second.end(), vec4{});
     cloud.entering.assign(content_->openFaces.size() + 1, std::numeric_limits<scalar>::quiet_NaN());
     label number = 0;
     for (const openFace& face : content_->openFaces) face.setFlags(cloud, rho, bodyForce, ++number);

@@ -162,7 +162,7 @@ vector projection::slopeBehind() const
 }
 
 // A pressure that falls from period to period acts as a body force; p less this slope is periodic.  Adds sign times the
-// slope: ofState to p of the particles, slope_ of the step to given pressures, ghosts and gradients
+// slope: ofState to p of the particles, slope_ of the step to given pressures and ghosts
 void projection::addSlope(scalar sign, const vector& ofState)
 {
     if (slope_.isZero(0) && ofState.isZero(0)) return;
@@ -173,8 +173,6 @@ void projection::addSlope(scalar sign, const vector& ofState)
     for (label g = cloud.n(); g < cloud.nAll(); ++g)
         if (const label source = cloud.ghostSource(g); source >= 0)
             cloud.addToGhostPressure(g, part(g) - part(source));
-    if (const auto given = cloud.vectors.find(givenGradient); given != cloud.vectors.end())
-        for (vec4& gradient : given->second) gradient.s += vec4::from(sign * slope_).s;
 }
 
 void projection::solve(const stencil& s, scalar dt)

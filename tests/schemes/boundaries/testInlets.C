@@ -162,8 +162,9 @@ scalar inside(const boxCase& b, const particleCloud& cloud)
 
 }  // namespace
 
-// Runs that differ by rounding diverge in time, by 0.2 % of the volume.  The volume must not jump, and with the feedback it
-// must not drift.  kicks [dx]: displacements at the start
+// Runs that differ by rounding diverge in time, by 0.2 % of the volume.  The volume must not jump, and it must not drift.  The
+// feedback holds the kernel sums: disordered fluid has the sums of a lattice with 0.2 to 0.3 % more particles, a level that it
+// reaches within five reversals and keeps (eight runs of thirty reversals).  kicks [dx]: displacements at the start
 TEST_CASE("a flow rate that reverses ten times: the channel keeps its volume, what enters leaves")
 {
     struct family
@@ -171,7 +172,7 @@ TEST_CASE("a flow rate that reverses ten times: the channel keeps its volume, wh
         const char* coupling;
         int kicks, feedback;
     };
-    std::array<scalar, 2> gained = {0, 0};  // by feedback
+    std::array<scalar, 2> gained = {0, 0};  // by feedback; with it in the last five reversals
     std::array<int, 2> runs = {0, 0};
     for (const auto& [coupling, kicks, feedback] :
          {family{"projection", 2, 1}, family{"monolithic", 16, 1}, family{"monolithic", 3, 0}})
@@ -188,9 +189,10 @@ TEST_CASE("a flow rate that reverses ten times: the channel keeps its volume, wh
             for (label i = 0; i < r.c.cloud.n(); ++i)
                 r.c.cloud.x[i][1] += 1e-9 * b.dx * kick * std::sin(1.7 * i + kick);
             const scalar before = inside(b, r.c.cloud), dt = 4e-3;
-            scalar missing = 0, highest = 0;
+            scalar missing = 0, highest = 0, halfWay = before;
             for (int k = 0; k < 500; ++k)
             {
+                if (k == 250) halfWay = inside(b, r.c.cloud);
                 r.run(dt, 1);
                 const List<patchBalance>& books = r.c.walls->balance();
                 REQUIRE(books[0].flux ==
@@ -201,7 +203,8 @@ TEST_CASE("a flow rate that reverses ten times: the channel keeps its volume, wh
             }
             CHECK(missing < (feedback ? 0.03e-3 : 1e-8));
             CHECK(inside(b, r.c.cloud) == relative(before, feedback ? 0.01 : 0.015));
-            gained[feedback] += inside(b, r.c.cloud) / before - 1, ++runs[feedback];
+            gained[feedback] += (inside(b, r.c.cloud) - (feedback ? halfWay : before)) / before;
+            ++runs[feedback];
             // rho dU/dt L and friction together; a jump of the flow in one step would give 1000 Pa
             CHECK(highest < 200);
         }
