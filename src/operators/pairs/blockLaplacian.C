@@ -82,16 +82,25 @@ List<blockLaplacian::entry> blockLaplacian::pairs(label from, label to, label nM
     return entries;
 }
 
-void blockLaplacian::solve(const List<vec4>& r, const List<scalar>& weight, List<vec4>& z) const
+void blockLaplacian::solve(const List<float4>& r, const List<float>& weight, List<float4>& z) const
 {
+    const label first = g_.within.first;
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n_, 3);
-    for (label i = g_.within.first; i < g_.cloud.n(); ++i)
-        if (const label b = block_[i]; b >= 0) sums.row(b) += weight[i] * r[i].xyz().transpose();
+    const auto ofPart = [&](label from, label to) {
+        Eigen::MatrixXd part = Eigen::MatrixXd::Zero(n_, 3);
+        for (label i = first + from; i < first + to; ++i)
+            if (const label b = block_[i]; b >= 0)
+                for (int d = 0; d < 3; ++d) part(b, d) += weight[i] * r[i][d];
+        return part;
+    };
+    for (const Eigen::MatrixXd& part : parallelParts(g_.cloud.n() - first, ofPart)) sums += part;
+    sums /= g_.cloud.dx * g_.cloud.dx;
     if (factors_.size() == 1) sums = factors_[0].solve(sums).eval();
     else
         for (int d = 0; d < 3; ++d) sums.col(d) = factors_[d].solve(sums.col(d)).eval();
-    for (label i = g_.within.first; i < g_.cloud.n(); ++i)
-        z[i] = block_[i] >= 0 ? vec4::from(sums.row(block_[i]).transpose()) : vec4{};
+    z.resize(n_);
+    for (label b = 0; b < n_; ++b)
+        z[b] = float4{float(sums(b, 0)), float(sums(b, 1)), float(sums(b, 2)), 0};
 }
 
 }  // namespace ispf

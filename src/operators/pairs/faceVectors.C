@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "faceVectors.H"
-#include "blockLaplacian.H"
+#include "cellClosing.H"
 
 #include <Eigen/Eigenvalues>
 
@@ -92,17 +92,6 @@ ISPF_HOT void openRange(const view& v, const vec4* b, label begin, label end, ve
     }
 }
 
-// sum_j w_ij (f_i - f_j)
-ISPF_HOT void graphRange(const view& v, const vec4* f, label begin, label end, vec4* result)
-{
-    for (label i = begin; i < end; ++i)
-    {
-        const simd4 sum = sumNeighbours(
-            v, v.row(i), simd4{}, [&](pairIndex k, label j) { return v.F[k] * (f[j].s - f[i].s); });
-        result[i].s = sum * inSpace;
-    }
-}
-
 // sum_j of the squared components of a_ij / w_ij, added up over components: sum_j |a_ij|^2 / w_ij, without psi
 ISPF_HOT void sizeRange(const view& v, label begin, label end, scalar* size)
 {
@@ -149,10 +138,6 @@ public:
     {
         poor_.assign(cloud.n(), 0), closed_.assign(cloud.n(), 0), share_.assign(cloud.nAll(), 1);
         bodies_ = connectedBodies(cloud, list, within);
-        drains_.assign(bodies_.n, 0);
-        for (label i = within.first; i < cloud.n(); ++i)
-            if (cloud.beyondOpen(i)) drains_[bodies_.of[i]] = 1;
-        gatherStrips();
     }
 
     // A particle with few neighbours gets a bounded correction.  One with next to none is not closed
@@ -172,13 +157,14 @@ public:
             B_[i] = columns::of(own);
             closed_[i] = !cloud_.beyondOpen(i) && !(poor_[i] && alone(i));
         });
+        closing_ = std::make_unique<cellClosing>(cloud_, list_, within_, bodies_, closed_);
         takeInside(), fillB();
     }
 
     // The support of a strip's particles is truncated: they get the mean correction of the fluid before the face
     void takeInside()
     {
-        for (const strip& s : strips_)
+        for (const cellClosing::strip& s : closing_->strips())
             for (const label i : s.members)
             {
                 columns sum = {};
@@ -208,7 +194,7 @@ public:
         List<columns> moment(cloud_.n());
         forRanges([&](label i, label end) { momentRange(sight(), i, end, moment.data()); });
         forMedium([&](label i) {
-            if (poor_[i] || inStrip_[i]) return;
+            if (poor_[i] || cloud_.stripOf(i) > 0) return;
             const columns change =
                 columns::of(relaxation * (one - moment[i].matrix() - M[i]) * within_.one[i]);
             for (int a = 0; a < 3; ++a) B_[i].c[a] += change.c[a];
@@ -221,82 +207,43 @@ public:
     void takePsi(const List<vec4>& psi)
     {
         if (psi.empty()) return;
-        forMedium([&](label i) {
-            if (closed_[i] || cloud_.stripOf(i) > 0) psi_[i] = psi[i];
-        });
-        for (const strip& s : strips_)
-        {
-            const simd4 mean = total(s, psi_) / scalar(std::max<size_t>(1, s.members.size()));
-            for (const label i : s.members) psi_[i].s = mean;
-        }
-        fill(psi_);
+        std::copy(psi.begin() + within_.first, psi.begin() + cloud_.n(),
+                  psi_.begin() + within_.first);
+        closing_->admit(psi_);
+        cloud_.fillGradientGhosts(psi_);
     }
 
-    // Solves (2.4) and (4.10) for psi by conjugate gradients, from the present psi on.  The diagonal and the Laplacian over
-    // blocks precondition them
+    // Solves (2.4) and (4.10) for psi, from the present psi on
     void close(const List<vec4>& b, scalar tolerance, faceVectors::closure& result)
     {
-        constexpr int most = 200;
-        const label n = cloud_.n();
-        List<vec4> r(n), z(n), p(n), q(n);
-        result.poor = label(std::count(poor_.begin(), poor_.end(), 1));
-        const label nClosed = label(std::count(closed_.begin(), closed_.end(), 1));
-        if (nClosed == 0) return;
-        if (!blocks_) prepare();
-        const List<scalar>& diagonal = diagonal_;
-        forRanges([&](label i, label end) { openRange(sight(), b.data(), i, end, r.data()); });
-        forMedium([&](label i) { r[i].s *= -inSpace; });
-        const view v = sight();
-        sumStrips(r, [&](label i, label j, scalar w) {
-            return -w * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j));
-        });
-        for (const strip& s : strips_)
-            for (const label i : s.members) r[i].s -= s.half.s;
-        const auto holds = [&](label i) { return (closed_[i] ? level : stripLevel) * diagonal[i]; };
-        forMedium([&](label i) { r[i].s -= holds(i) * psi_[i].s; });
-        // Areas of a boundary whose sum is not zero have no cell to go to.  In a body with an open face they go beyond the
-        // face
-        keepFree(r), removeMeans(r, [&](label body) { return !drains_[body]; });
-        const auto precondition = [&] {
-            blocks_->solve(r, weight_, z);
-            forMedium([&](label i) { z[i].s += r[i].s / diagonal[i]; });
-            keepFree(z);
-        };
-        const auto dot = [&](const List<vec4>& f, const List<vec4>& g) {
-            return sumOf([&](label i) {
-                const simd4 fg = f[i].s * g[i].s;
-                return fg[0] + fg[1] + fg[2];
-            });
-        };
-        precondition();
-        p = z;
-        // the last step over the blocks may enlarge the residual
-        constexpr scalar safe = 0.9;
-        const scalar scale = cloud_.dx * cloud_.dx / (safe * safe * nClosed);
-        scalar rr = dot(r, r), rz = dot(r, z);
-        for (; result.iterations < most && rr * scale > tolerance * tolerance && rz > 0;
-             ++result.iterations)
+        constexpr int most = 5;  // residuals, doc/constants.md
+        bool done = false;
+        for (int k = 0; k < most && !done; ++k)
         {
-            fill(p);
-            forRanges([&](label i, label end) { graphRange(sight(), p.data(), i, end, q.data()); });
-            sumStrips(q, [&](label i, label j, scalar w) { return w * (p[i].s - p[j].s); });
-            forMedium([&](label i) { q[i].s += holds(i) * p[i].s; });
-            keepFree(q);
-            const scalar pq = dot(p, q);
-            if (!(pq > 0)) break;
-            const scalar alpha = rz / pq;
-            forMedium([&](label i) { psi_[i].s += alpha * p[i].s, r[i].s -= alpha * q[i].s; });
-            precondition();
-            const scalar next = dot(r, z);
-            rr = dot(r, r);
-            forMedium([&](label i) { p[i].s = z[i].s + next / rz * p[i].s; });
-            rz = next;
+            List<vec4> r = residual(b);
+            done = closing_->improve(r, psi_, tolerance, result.iterations);
+            cloud_.fillGradientGhosts(psi_);
         }
-        // The last step leaves no residual sum over any block.  blockLaplacian is not exact for planes askew to the axes
-        const tensor free = cloud_.freeDirections();
-        blocks_->solve(r, weight_, z);
-        forMedium([&](label i) { psi_[i].s += vec4::from(free * z[i].xyz()).s; });
-        fill(psi_);
+    }
+
+    // - sum_j a_ij - b_i.  A strip has the sum over its pairs with particles in no strip, and half its face
+    List<vec4> residual(const List<vec4>& b) const
+    {
+        List<vec4> r(cloud_.n());
+        const view v = sight();
+        forRanges([&](label i, label end) { openRange(v, b.data(), i, end, r.data()); });
+        forMedium([&](label i) { r[i].s *= -inSpace; });
+        for (const cellClosing::strip& s : closing_->strips())
+        {
+            simd4 sum = -s.half.s;
+            for (const label i : s.members)
+                forNeighbours(list_, within_.row(list_, i), [&](pairIndex k, label j) {
+                    if (cloud_.stripOf(cloud_.ownerOf(j)) > 0) return;
+                    sum += list_.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j));
+                });
+            for (const label i : s.members) r[i].s = sum;
+        }
+        return r;
     }
 
     // Shortens the corrected part of the faces beyond mostFace; psi closes the cells again
@@ -324,6 +271,7 @@ public:
         share_ = std::move(share);
     }
 
+    label nPoor() const { return label(std::count(poor_.begin(), poor_.end(), 1)); }
     void keepPsi(List<vec4>& psi) const { psi.assign(psi_.begin(), psi_.begin() + cloud_.n()); }
 
     // Writes a_ij and the residuals, after closing.  The mean over each body is taken off the residuals: a uniform p then
@@ -345,118 +293,11 @@ public:
             else c[i] = vec4{};
         }
         result.defect = cloud_.dx * std::sqrt(squares / std::max<label>(1, nClosed));
-        removeMeans(c, [](label) { return true; });
+        closing_->removeMeans(c, true);
         faces.poor = poor_, faces.bodies = bodies_;
     }
 
 private:
-    // Small numbers on the diagonal that fix the level of psi, which has no effect: for particles, blocks and strips.  That
-    // of a strip takes the sum of areas that is not zero
-    static constexpr scalar level = 1e-9, regular = 1e-8, stripLevel = 1e-5;
-
-    // The fluid beyond an open face is one cell
-    struct strip
-    {
-        List<label> members;
-        vec4 half;  // area vector of the face, over 2 V
-    };
-
-    void gatherStrips()
-    {
-        weight_.assign(cloud_.n(), 1), inStrip_.assign(cloud_.n(), 0);
-        strips_.resize(cloud_.stripArea.size());
-        for (label i = within_.first; i < cloud_.n(); ++i)
-            if (const label k = cloud_.stripOf(i); k > 0)
-                strips_[k].members.push_back(i), inStrip_[i] = 1;
-        const tensor free = cloud_.freeDirections();
-        for (size_t k = 0; k < strips_.size(); ++k)
-        {
-            if (!strips_[k].members.empty())
-                strips_[k].half = vec4::from(free * cloud_.stripArea[k] / (2 * cloud_.volume()));
-            for (const label i : strips_[k].members)
-                weight_[i] = 1 / scalar(strips_[k].members.size());
-        }
-    }
-    // Takes off f of closed particles its mean over each body with has(body), along directions that symmetry planes do not
-    // turn
-    template <class Has>
-    void removeMeans(List<vec4>& f, const Has& has) const
-    {
-        List<vec4> mean(bodies_.n);  // [3]: number of particles
-        for (label i = within_.first; i < cloud_.n(); ++i)
-            if (closed_[i]) mean[bodies_.of[i]].s += f[i].s * inSpace + simd4{0, 0, 0, 1};
-        const tensor free = cloud_.freeDirections();
-        for (label body = 0; body < bodies_.n; ++body)
-        {
-            const scalar count = has(body) ? mean[body][3] : 0;
-            mean[body] = count > 0 ? vec4::from(free * mean[body].xyz() / count) : vec4{};
-        }
-        forMedium([&](label i) {
-            if (closed_[i]) f[i].s -= mean[bodies_.of[i]].s;
-        });
-    }
-    static simd4 total(const strip& s, const List<vec4>& f)
-    {
-        simd4 sum = {};
-        for (const label i : s.members) sum += f[i].s;
-        return sum;
-    }
-    // Sets f of the members of each strip to the sum of term(i, j, w_ij) over the strip's pairs with particles in no strip
-    template <class Term>
-    void sumStrips(List<vec4>& f, Term&& term) const
-    {
-        for (const strip& s : strips_)
-        {
-            simd4 sum = {};
-            for (const label i : s.members)
-                forNeighbours(list_, within_.row(list_, i), [&](pairIndex k, label j) {
-                    if (!inStrip_[cloud_.ownerOf(j)]) sum += term(i, j, -list_.F[k]);
-                });
-            for (const label i : s.members) f[i].s = sum;
-        }
-    }
-    // Sets f to zero for particles that are neither closed nor in a strip, and for strips in directions that symmetry planes
-    // turn
-    void keepFree(List<vec4>& f) const
-    {
-        const tensor free = cloud_.freeDirections();
-        forMedium([&](label i) {
-            if (closed_[i]) return;
-            f[i] = inStrip_[i] ? vec4::from(free * f[i].xyz()) : vec4{};
-        });
-    }
-    // sum_j w_ij; for a strip's particle the sum runs over particles in no strip
-    List<scalar> graphDiagonal() const
-    {
-        List<scalar> diagonal(cloud_.n(), 1);
-        forMedium([&](label i) {
-            scalar sum = 0;
-            forNeighbours(list_, within_.row(list_, i), [&](pairIndex k, label j) {
-                if (!inStrip_[i] || !inStrip_[cloud_.ownerOf(j)]) sum -= list_.F[k];
-            });
-            if (sum > 0) diagonal[i] = sum;
-            else if (inStrip_[i]) diagonal[i] = 0;
-        });
-        for (const strip& s : strips_)
-        {
-            scalar sum = 0;
-            for (const label i : s.members) sum += diagonal[i];
-            for (const label i : s.members) diagonal[i] = sum > 0 ? sum : 1;
-        }
-        return diagonal;
-    }
-
-    void prepare()
-    {
-        diagonal_ = graphDiagonal();
-        List<scalar> ofBlock(cloud_.n());
-        forMedium([&](label i) {
-            ofBlock[i] = (closed_[i] ? regular : stripLevel) * weight_[i] * diagonal_[i];
-        });
-        blocks_ = std::make_unique<blockLaplacian>(
-            blockLaplacian::graph{cloud_, list_, within_, bodies_, closed_, inStrip_}, ofBlock);
-    }
-
     view sight() const
     {
         return {list_.start.data(), within_.end->data(), list_.index.data(), list_.F.data(),
@@ -477,18 +318,6 @@ private:
             for (; i < end; ++i) body(i);
         });
     }
-    template <class Term>
-    scalar sumOf(Term&& term) const
-    {
-        const label first = within_.first;
-        return parallelSum(cloud_.n() - first, [&](label from, label to) {
-            scalar sum = 0;
-            for (label i = first + from; i < first + to; ++i) sum += weight_[i] * term(i);
-            return sum;
-        });
-    }
-
-    void fill(List<vec4>& f) const { cloud_.fillGradientGhosts(f); }
     void fillB()
     {
         const label n = cloud_.n();
@@ -507,14 +336,10 @@ private:
     const medium& within_;
     List<columns> B_;
     List<vec4> psi_;
-    List<char> poor_, closed_, inStrip_;
-    List<scalar> share_,
-        weight_;  // weight_: weight of a particle in a sum; the members of a strip share the weight one
-    List<strip> strips_;
+    List<char> poor_, closed_;
+    List<scalar> share_;
     connectedBodies bodies_;
-    List<scalar> diagonal_;  // diagonal of the graph Laplacian
-    std::unique_ptr<blockLaplacian> blocks_;
-    List<char> drains_;  // per body: 1 if an open face drains it
+    std::unique_ptr<cellClosing> closing_;
 };
 
 }  // namespace
@@ -529,6 +354,7 @@ faceVectors::closure faceVectors::build(const particleCloud& cloud, const neighb
     closure result;
     builder faces(cloud, list, within);
     faces.start(M);
+    result.poor = faces.nPoor();
     for (int k = 1; k <= fits; ++k)
     {
         List<vec4>& ofFit = *psi[k - 1];

@@ -124,10 +124,11 @@ void monolithicPreconditioner::solveMomentum(List<vec4>& u) const
     const scalar reach = 1 - leastEigenvalue_;
     scalar omega = 2;
     f_.assign(u.begin() + nSolid, u.begin() + cloud.n());
-    before_.resize(nFluid);
-    for (label sweep = 0; sweep < sweeps_; ++sweep)
+    before_.assign(nFluid, vec4{});
+    // the first sweep, from zero on, is u = f/A_ii
+    for (label sweep = 1; sweep < sweeps_; ++sweep)
     {
-        if (sweep > 0) omega = 1 / (1 - 0.25 * reach * reach * omega);
+        omega = 1 / (1 - 0.25 * reach * reach * omega);
         cloud.fillGhosts(u, true);
         system_.rows().viscous().apply(u, work_, nSolid);
         parallelFor(nFluid, [&](label begin, label end) {
@@ -135,10 +136,10 @@ void monolithicPreconditioner::solveMomentum(List<vec4>& u) const
             {
                 const label i = nSolid + k;
                 const simd4 Au = inertia * u[i].s + system_.viscousFactor() * work_[i].s;
-                simd4 next = u[i].s + f_[k].s - Au / A[i];
-                if (sweep > 0) next = before_[k].s + omega * (next - before_[k].s);
+                const simd4 next = u[i].s + f_[k].s - Au / A[i];
+                const simd4 improved = before_[k].s + omega * (next - before_[k].s);
                 before_[k] = u[i];
-                u[i].s = next;
+                u[i].s = improved;
                 u[i][3] = 0;
             }
         });
