@@ -52,11 +52,11 @@ void boundary::printBalance(const particleCloud& cloud) const
                   str(symmetryFactor() * content_->balance[pair.index].flux);
     if (!fluxes.empty() && !cyclic.empty()) fluxes += "; ";
     if (!(fluxes + cyclic).empty()) info() << "patch flux " << fluxes << cyclic << "\n";
-    const auto strays = cloud.history.find("strays");
-    if (created + deleted + pushed > 0 || hasOpen() || strays != cloud.history.end())
+    const auto strays = cloud.state.find(entries::strays);
+    if (created + deleted + pushed > 0 || hasOpen() || strays)
         info() << "particles: " << cloud.n() << "; so far created " << created << ", deleted "
-               << deleted << ", put back " << pushed << "; strays "
-               << (strays == cloud.history.end() ? 0 : label(strays->second.at(0))) << "\n";
+               << deleted << ", put back " << pushed << "; strays " << label(strays.value_or(0))
+               << "\n";
 }
 
 void boundary::restoreBalance(const List<patchBalance>& balance)

@@ -110,7 +110,7 @@ private:
     scalar feedback(label i, scalar dt) const;
     scalar missed(label i, scalar dt) const;
     template <class Source>
-    void book(const word& entry, scalar dt, Source&& source);
+    void book(const stateEntry<scalar>& entry, scalar dt, Source&& source);
     void accept(const List<scalar>& z);
     void account(scalar dt);
     void addWay(scalar dt);
@@ -180,9 +180,9 @@ List<scalar> monolithic::guess() const
 {
     const particleCloud& cloud = c_.cloud;
     const auto old = cloud.vectors.find(levelBefore);
-    const auto lastDt = cloud.history.find(levelBefore);
-    const bool has = old != cloud.vectors.end() && lastDt != cloud.history.end();
-    const scalar before = has ? lastDt->second[0] : 1;
+    const auto lastDt = cloud.state.find(entries::levelBefore);
+    const bool has = old != cloud.vectors.end() && lastDt;
+    const scalar before = lastDt.value_or(1);
     const scalar u = has ? time_.velocitiesAhead() / before : 0;
     const scalar p = has ? time_.pressuresAhead() / before : 0;
     const simd4 ratio = {u, u, u, p};
@@ -209,19 +209,17 @@ scalar monolithic::missed(label i, scalar dt) const
 }
 
 template <class Source>
-void monolithic::book(const word& entry, scalar dt, Source&& source)
+void monolithic::book(const stateEntry<scalar>& entry, scalar dt, Source&& source)
 {
     scalar rate = 0;
     for (label i = 0; i < c_.cloud.nSolid(); ++i) rate += source(i);
-    List<scalar>& booked = c_.cloud.history[entry];
-    booked.resize(1, 0);
-    booked[0] += rate * c_.cloud.volume() * dt;
+    c_.cloud.state.add(entry, rate * c_.cloud.volume() * dt);
 }
 
 void monolithic::accept(const List<scalar>& z)
 {
     particleCloud& cloud = c_.cloud;
-    cloud.history.erase(projected);
+    cloud.state.erase(entries::projectedStep);
     for (label i = 0; i < cloud.n(); ++i)
         cloud.Up[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], z[4 * i + 3]};
 }
@@ -235,8 +233,8 @@ void monolithic::account(scalar dt)
     {
         List<scalar> dJ;
         volume_->rate(c_.cloud.Up, dJ, dF);
-        book(solidFeedback, dt, [&](label i) { return feedback(i, dt); });
-        book(solidDefect, dt, [&](label i) { return missed(i, dt); });
+        book(entries::solidFeedback, dt, [&](label i) { return feedback(i, dt); });
+        book(entries::solidDefect, dt, [&](label i) { return missed(i, dt); });
         List<scalar> missed;
         volume_->overStep(c_.cloud.Up, time_.midway() ? 0 : dt, missed);
         for (size_t i = 0; i < ahead_.size(); ++i) missed[i] -= ahead_[i];

@@ -28,11 +28,16 @@
 namespace ispf
 {
 
-namespace
+namespace entries
 {
 
-// Entry of cloud.history: slope of p along cyclic patches in the last step, absent if it is zero [Pa/m]
-const word slopeOfStep = "pressureSlope";
+// Slope of p along cyclic patches in the last step, absent if it is zero [Pa/m]
+const stateEntry<vector> pressureSlope{"pressureSlope"};
+
+}  // namespace entries
+
+namespace
+{
 
 struct projectionEntries
 {
@@ -92,7 +97,6 @@ private:
     List<vec4> accelerations(const vector& slope, List<vec4>& spring) const;
     List<scalar> sources() const;
     void checkPushed(const List<label>& bodyOf) const;
-    vector slopeBehind() const;
     void addSlope(scalar sign, const vector& ofState);
     void solve(const stencil& s, scalar dt);
 
@@ -155,12 +159,6 @@ void projection::checkPushed(const List<label>& bodyOf) const
     }
 }
 
-vector projection::slopeBehind() const
-{
-    const auto found = c_.cloud.history.find(slopeOfStep);
-    return found == c_.cloud.history.end() ? vector(vector::Zero()) : vector(found->second.data());
-}
-
 // A pressure that falls from period to period acts as a body force; p less this slope is periodic.  Adds sign times the
 // slope: ofState to p of the particles, slope_ of the step to given pressures and ghosts
 void projection::addSlope(scalar sign, const vector& ofState)
@@ -182,7 +180,7 @@ void projection::solve(const stencil& s, scalar dt)
     q.resize(cloud.n(), 0);
     const List<label> closed = closedBodies(cloud, c_.list);
     if (!c_.structure) checkPushed(closed);
-    hydrostatic_.take(cloud), addSlope(-1, slopeBehind());
+    hydrostatic_.take(cloud), addSlope(-1, cloud.state.get(entries::pressureSlope, vector::Zero()));
     step_.setup(cloud, s, *c_.kernel);
     if (density_.on() && !c_.walls->hasCyclic())
         density_.addTo(q, step_.pair(), drainedFluid(cloud, c_.list, closed), dt);
@@ -196,8 +194,8 @@ void projection::solve(const stencil& s, scalar dt)
     });
     step_.settle(cloud, c_.kernel->support(), dt);
     hydrostatic_.giveBack(cloud), addSlope(1, slope_);
-    if (slope_.isZero(0)) cloud.history.erase(slopeOfStep);
-    else cloud.history[slopeOfStep] = {slope_[0], slope_[1], slope_[2]};
+    if (slope_.isZero(0)) cloud.state.erase(entries::pressureSlope);
+    else cloud.state.set(entries::pressureSlope, slope_);
     step_.printContinuityErrors(cloud, q, dt);
     density_.book(cloud, dt);
 }
