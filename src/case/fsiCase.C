@@ -229,11 +229,10 @@ void fsiCase::countStrays()
     if (n != before) cloud.state.set(entries::strays, n);
 }
 
-void fsiCase::updateNeighbours(const stepTimes& times, scalar behind)
+void fsiCase::updateNeighbours(const stepTimes& times)
 {
     walls->setStep(times);
     if (times.at != times.start) walls->bringHome(cloud);
-    if (behind > 0) walls->recallVelocities(cloud, behind);
     carrySolids();
     sortParticles();
     bodyForce = bodyForceAt(0.5 * (times.start + times.end));

@@ -23,11 +23,6 @@ void boundary::keepVelocities(particleCloud& cloud) const
     content_->walls.keepVelocities(cloud);
 }
 
-void boundary::recallVelocities(const particleCloud& cloud, scalar behind)
-{
-    content_->walls.recallVelocities(cloud, behind);
-}
-
 void boundary::setStepBehind(scalar t0, scalar t1)
 {
     setStep(t0, t1);

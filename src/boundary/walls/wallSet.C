@@ -157,19 +157,6 @@ void wallSet::keepVelocities(particleCloud& cloud) const
     }
 }
 
-void wallSet::recallVelocities(const particleCloud& cloud, scalar behind)
-{
-    for (wall& w : walls_)
-    {
-        const List<scalar> v = cloud.state.get(entries::velocityOf(w), {});
-        if (v.size() != 3 && v.size() != 12) continue;
-        w.behind = behind;
-        w.velocityBefore.u = vector(v[0], v[1], v[2]);
-        w.velocityBefore.uniform = v.size() < 12;
-        if (!w.velocityBefore.uniform) w.velocityBefore.L = Eigen::Map<const tensor>(&v[3]);
-    }
-}
-
 scalar wallSet::perDepth(const patchSurface& s) const
 {
     if (nDims_ == 3) return 1;

@@ -204,8 +204,7 @@ word projection::attempt(scalar t, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
     time_.start(cloud, t, dt);
-    c_.time.stages.in("neighbours",
-                      [&] { c_.updateNeighbours(time_.times(), fractionalStep::behind(cloud)); });
+    c_.time.stages.in("neighbours", [&] { c_.updateNeighbours(time_.times()); });
     hydrostatic_.setStep(t, t + dt);
     slope_ = c_.walls->pressureSlope();
     energy_.begin(time_.startPlaces(cloud));
