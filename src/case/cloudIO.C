@@ -50,6 +50,16 @@ List<zoneInfo> zonesOf(const particleTable& table, const word& file)
     return zones;
 }
 
+namespace entries
+{
+
+static stateEntry<List<scalar>> balanceOf(const patchBalance& b)
+{
+    return {"balance." + b.name};
+}
+
+}  // namespace entries
+
 namespace
 {
 
@@ -60,9 +70,6 @@ void writeZones(const particleCloud& cloud, particleTable& table)
     table.attributes["zones"] = join(names);
     table.attributes["phases"] = join(phases);
 }
-
-const char* const balanceOf = "balance.";
-constexpr size_t balanceSize = 4;
 
 // True for attributes that readCloud and tableOf handle
 bool isKnown(const word& attribute)
@@ -217,8 +224,9 @@ particleTable tableOf(const Time& time, const particleCloud& cloud, const bounda
             table.vectors[name].push_back(values[i].xyz()), w.push_back(values[i][3]);
         if (name != "x0" && !isZero(w)) table.scalars[name + ":w"] = std::move(w);
     }
-    table.extra = cloud.history;
-    for (const patchBalance& b : walls.balance()) table.extra[balanceOf + b.name] = b.state();
+    stepState state = cloud.state;
+    for (const patchBalance& b : walls.balance()) state.set(entries::balanceOf(b), b.state());
+    table.extra = state.values();
     table.attributes = cloud.notes;
     table.setAttribute("nDims", cloud.nDims), table.setAttribute("dx", cloud.dx);
     table.setAttribute("time", time.value()), table.setAttribute("timeIndex", time.timeIndex());
@@ -244,7 +252,9 @@ void readCloud(Time& time, particleCloud& cloud)
     readParticlesOf(table, file, cloud);
     readFields(table, cloud);
     for (const auto& [name, values] : table.extra)  // version 1: "history.<name>"
-        cloud.history[name.rfind("history.", 0) == 0 ? name.substr(8) : name] = values;
+        cloud.state.set(
+            stateEntry<List<scalar>>{name.rfind("history.", 0) == 0 ? name.substr(8) : name},
+            values);
     for (const auto& [name, text] : table.attributes)
         if (!isKnown(name)) cloud.notes[name] = text;
     if (table.attributes.count("nextId") && table.scalarAttribute("nextId") > 0)
@@ -254,9 +264,7 @@ void readCloud(Time& time, particleCloud& cloud)
 void restoreBalance(const particleCloud& cloud, boundary& walls)
 {
     List<patchBalance> balance = walls.balance();
-    for (patchBalance& b : balance)
-        if (const auto it = cloud.history.find(balanceOf + b.name); it != cloud.history.end())
-            b.restore(it->second);
+    for (patchBalance& b : balance) b.restore(cloud.state.get(entries::balanceOf(b), {}));
     walls.restoreBalance(balance);
 }
 

@@ -196,13 +196,21 @@ scalar fsiCase::stepEnd(scalar now) const
     return time.endTime() > now ? std::min(end, time.endTime()) : end;
 }
 
+namespace entries
+{
+
+const stateEntry<scalar> stepsSinceSort{"stepsSinceSort"};
+
+}  // namespace entries
+
 // Sorts fluid so that neighbours in space are neighbours in memory; this holds for ten steps.  The count is a part of the
 // state, so that a continued run keeps the order
 void fsiCase::sortParticles()
 {
     constexpr scalar interval = 10;
-    List<scalar>& since = cloud.history["stepsSinceSort"];
-    if (since.empty() || ++since[0] >= interval) cloud.sortFluid(kernel->support()), since = {0};
+    const scalar since = cloud.state.get(entries::stepsSinceSort, interval) + 1;
+    if (since >= interval) cloud.sortFluid(kernel->support());
+    cloud.state.set(entries::stepsSinceSort, since < interval ? since : 0);
     cloud.clearGhosts();
 }
 
@@ -213,20 +221,18 @@ void fsiCase::countStrays()
     label n = 0, last = 0;
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
         if (list.start[i + 1] == list.start[i]) ++n, last = i;
-    const auto known = cloud.history.find("strays");
-    const scalar before = known == cloud.history.end() ? 0 : known->second.at(0);
+    const scalar before = cloud.state.get(entries::strays, 0);
     if (n > before)
         warning("Fluid has left the case: " + std::to_string(n) +
                 " particle(s) have no neighbours any more, the last is " + cloud.describe(last) +
                 ". Is there a gap between the patches of constant/boundary, or is a wall missing?");
-    if (n != before) cloud.history["strays"] = {scalar(n)};
+    if (n != before) cloud.state.set(entries::strays, n);
 }
 
-void fsiCase::updateNeighbours(const stepTimes& times, scalar behind)
+void fsiCase::updateNeighbours(const stepTimes& times)
 {
     walls->setStep(times);
     if (times.at != times.start) walls->bringHome(cloud);
-    if (behind > 0) walls->recallVelocities(cloud, behind);
     carrySolids();
     sortParticles();
     bodyForce = bodyForceAt(0.5 * (times.start + times.end));

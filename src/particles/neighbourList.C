@@ -130,9 +130,9 @@ struct rowBuilder
                                             : word("a boundary particle")) +
                              " coincide at (" + str(cloud.x[i][0]) + " " + str(cloud.x[i][1]) +
                              " " + str(cloud.x[i][2]) + ")");
-        const phaseType p = cloud.phase[j];
-        const bool isWall = p == phaseType::rigid || p == phaseType::mirror;
-        const int g = p != cloud.phase[i] ? (isWall ? 3 : 2) : given[i] || given[j] ? 0 : 1;
+        const int g = cloud.phase[j] != cloud.phase[i] ? (cloud.isMedium(j) ? 2 : 3)
+                      : given[i] || given[j]           ? 0
+                                                       : 1;
         found[g].push_back(j), r2[g].push_back(square);
     }
 

@@ -94,7 +94,7 @@ void particleCloud::sortFluid(scalar cellSize)
 void particleCloud::clearGhosts()
 {
     x.resize(n_), Up.resize(n_), phase.resize(n_);
-    source_.clear(), rule_.clear(), offset_.clear(), through_.clear(), depth_.clear();
+    owner_.clear(), rule_.clear(), offset_.clear(), through_.clear(), depth_.clear();
     wallScale_.clear(), ownImage_.clear();
     volume_.clear(), stretched_ = false;
     rules_.clear(), surface.clear();
@@ -110,7 +110,7 @@ void particleCloud::addImage(label source, label rule, const vector& position, c
 {
     x.push_back(vec4::from(position)), Up.push_back(vec4{});
     phase.push_back(phase[source]);
-    source_.push_back(source), rule_.push_back(rule), offset_.push_back(b);
+    owner_.push_back({.index = source}), rule_.push_back(rule), offset_.push_back(b);
     through_.push_back(vector::Zero()), depth_.push_back(vec4{}), volume_.push_back(1);
 }
 
@@ -127,15 +127,13 @@ void particleCloud::addRigid(const vector& position, const vector& velocity)
 {
     x.push_back(vec4::from(position)), Up.push_back(vec4::from(velocity));
     phase.push_back(phaseType::rigid);
-    source_.push_back(-1), rule_.push_back(0), offset_.push_back(vec4::from(velocity));
+    owner_.push_back({}), rule_.push_back(0), offset_.push_back(vec4::from(velocity));
     through_.push_back(vector::Zero()), depth_.push_back(vec4{}), volume_.push_back(1);
 }
 
-void particleCloud::addRigid(const vector& position, const vector& velocity, const vector& foot,
-                             const vector& gained)
+void particleCloud::addRigid(const vector& position, const vector& velocity, const vector& foot)
 {
     addRigid(position, velocity);
-    through_.back() = gained;
     const scalar depth = (foot - position).norm();
     if (depth > 0) depth_.back() = vec4::from((foot - position) / depth, depth);
 }
@@ -161,7 +159,8 @@ tensor particleCloud::freeDirections() const
 
 bool particleCloud::hasRigid() const
 {
-    return std::find(phase.begin() + n_, phase.end(), phaseType::rigid) != phase.end();
+    return std::any_of(owner_.begin(), owner_.end(),
+                       [](const ghostOwner& o) { return o.index < 0; });
 }
 
 void particleCloud::fillGhosts(List<vec4>& f, bool homogeneous) const
@@ -172,9 +171,9 @@ void particleCloud::fillGhosts(List<vec4>& f, bool homogeneous) const
         for (label g = begin; g < end; ++g)
         {
             simd4 value = homogeneous ? zero : offset_[g].s;
-            if (source_[g] >= 0)
+            if (const label source = owner_[g].index; source >= 0)
             {
-                const simd4 s = f[source_[g]].s;
+                const simd4 s = f[source].s;
                 const scalar* M = rules_[rule_[g]].M.data();  // column-major
                 for (int c = 0; c < 4; ++c)
                     value += s[c] * simd4{M[4 * c], M[4 * c + 1], M[4 * c + 2], M[4 * c + 3]};
@@ -190,10 +189,10 @@ void particleCloud::fillContinuityGhosts(List<vec4>& f) const
     parallelFor(nGhosts(), [&](label begin, label end) {
         for (label g = begin; g < end; ++g)
         {
-            if (source_[g] < 0) continue;
+            if (owner_[g].index < 0) continue;
             const ghostRule& rule = rules_[rule_[g]];
             if (rule.R == rule.M.topLeftCorner<3, 3>()) continue;
-            f[n_ + g].setXyz(rule.R * f[source_[g]].xyz() + through_[g]);
+            f[n_ + g].setXyz(rule.R * f[owner_[g].index].xyz() + through_[g]);
         }
     });
 }
@@ -205,8 +204,8 @@ void particleCloud::fillGradientGhosts(List<vec4>& f) const
         for (label g = begin; g < end; ++g)
         {
             f[n_ + g] = vec4{};
-            if (source_[g] < 0) continue;
-            const vec4& s = f[source_[g]];
+            if (owner_[g].index < 0) continue;
+            const vec4& s = f[owner_[g].index];
             const ghostRule& rule = rules_[rule_[g]];
             f[n_ + g] = vec4::from(rule.R * s.xyz(), rule.M(3, 3) * s[3]);
         }

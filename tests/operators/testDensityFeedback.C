@@ -217,7 +217,7 @@ TEST_CASE("density feedback: none at the start, next to none of disorder that co
         for (const unsigned seed : {4, 5, 6})
         {
             openPipe other(0);
-            other.displace(0.2, seed), other.cloud.history = p.cloud.history;
+            other.displace(0.2, seed), other.cloud.state = p.cloud.state;
             densityFeedback goesOn = with("densityFeedback 1;", other.cloud);
             // one particle more or less is 0.0011
             CHECK(std::abs(sourceOf(other, goesOn)[9]) < 0.0025 * next(0, meanOf(other).w, 1));
@@ -256,9 +256,9 @@ TEST_CASE("density feedback: its constant is the rate")
     densityFeedback none = with("densityFeedback 0;", p.cloud);
     CHECK(!none.on());
     CHECK(sourceOf(p, none)[9] == 0);
-    p.cloud.history.clear();
+    p.cloud.state = {};
     none.book(p.cloud, dt);
-    CHECK(p.cloud.history.empty());
+    CHECK(p.cloud.state.values().empty());
 }
 
 TEST_CASE("density feedback: none if closed, with a source of its own, or at rest")
@@ -331,7 +331,7 @@ TEST_CASE("density feedback: each zone has its own source")
     }
 }
 
-TEST_CASE("density feedback: only accepted steps count, and a restart goes on from the history")
+TEST_CASE("density feedback: only accepted steps count, and a restart goes on from the state")
 {
     emptied p;
     densityFeedback first = with("densityFeedback 1;", p.cloud);
@@ -342,7 +342,7 @@ TEST_CASE("density feedback: only accepted steps count, and a restart goes on fr
     CHECK(twice[9] < 1.3 * once[9]);  // it grows
     densityFeedback again = with("densityFeedback 1;", p.cloud);
     CHECK(sourceOf(p, again) == twice);
-    p.cloud.history.clear();
+    p.cloud.state = {};
     CHECK(sourceOf(p, again)[9] == 0);  // another start
 }
 
@@ -357,5 +357,5 @@ TEST_CASE("density feedback books what it has put in")
         feedback.book(p.cloud, step);
     }
     CHECK(sum < 0);
-    CHECK(p.cloud.history.at(fluidFeedback)[0] == relative(sum, 1e-12));
+    CHECK(p.cloud.state.get(entries::fluidFeedback, 0) == relative(sum, 1e-12));
 }

@@ -41,7 +41,7 @@ const bounds scenes[] = {
 
 scalar at(const fsiCase& c, int k)
 {
-    return c.cloud.history.at("energyLedger").at(k);
+    return c.cloud.state.values().at("energyLedger").at(k);
 }
 
 scalar largest(const fsiCase& c)
@@ -182,10 +182,10 @@ TEST_CASE("a step in which particles would pass each other is halved, with eithe
         runningBox run(box);
         run.run(2e-3, 1);  // a spacing; two steps of half of one are taken
         CHECK(run.time.value() == relative(2e-3, 1e-12));
-        const word kept = coupling == "projection" ? "projectedStep" : "Up_0";
-        CHECK(run.c.cloud.history.at(kept).at(0) == relative(1e-3, 1e-12));
+        const auto& kept = coupling == "projection" ? entries::projectedStep : entries::levelBefore;
+        CHECK(run.c.cloud.state.get(kept, 0) == relative(1e-3, 1e-12));
         run.run(1e-3, 1);
-        CHECK(run.c.cloud.history.at(kept).at(0) == relative(1e-3, 1e-12));
+        CHECK(run.c.cloud.state.get(kept, 0) == relative(1e-3, 1e-12));
     }
 }
 
@@ -205,7 +205,8 @@ TEST_CASE(
             runningBox run(box);
             run.run(dt, 1);
             CHECK(run.time.value() == relative(dt, 1e-12));
-            const word kept = coupling == "projection" ? "projectedStep" : "Up_0";
-            CHECK(run.c.cloud.history.at(kept).at(0) == relative(way < 0.4 ? dt : dt / 2, 1e-12));
+            const auto& kept =
+                coupling == "projection" ? entries::projectedStep : entries::levelBefore;
+            CHECK(run.c.cloud.state.get(kept, 0) == relative(way < 0.4 ? dt : dt / 2, 1e-12));
         }
 }

@@ -83,7 +83,7 @@ bool openFace::agrees(const particleCloud& cloud, scalar rho, scalar dt) const
 
 void openFace::accept(particleCloud& cloud, scalar t0, scalar t1) const
 {
-    if (p_) cloud.history[outletOf + name_] = p_->accept(t0, t1, images_ * flux_);
+    if (p_) cloud.state.set(outletState(), p_->accept(t0, t1, images_ * flux_));
 }
 
 scalar openFace::weight(scalar q)

@@ -48,8 +48,7 @@ void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
     List<scalar>& slope = cloud.scalars[slopeField];
     slope.resize(cloud.n(), 0);
     if (inflow_) return setVelocity(cloud, number);
-    const auto kept = cloud.history.find(outletOf + name_);
-    given_ = p_->begin(time_, kept == cloud.history.end() ? List<scalar>() : kept->second);
+    given_ = p_->begin(time_, cloud.state.get(outletState(), {}));
     parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
         for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
         {

@@ -9,6 +9,12 @@ namespace ispf
 
 boundary::~boundary() = default;
 
+void boundary::content::setStep(const stepTimes& times)
+{
+    for (const auto& p : patches) p->setStep(times);
+    rims.check(times.end);
+}
+
 void boundary::setStep(const stepTimes& times)
 {
     content_->t0 = times.start;
@@ -21,11 +27,6 @@ void boundary::setStep(const stepTimes& times)
 void boundary::keepVelocities(particleCloud& cloud) const
 {
     content_->walls.keepVelocities(cloud);
-}
-
-void boundary::recallVelocities(const particleCloud& cloud, scalar behind)
-{
-    content_->walls.recallVelocities(cloud, behind);
 }
 
 void boundary::setStepBehind(scalar t0, scalar t1)
@@ -45,70 +46,36 @@ void boundary::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
 {
     std::fill(cloud.pFixed.begin(), cloud.pFixed.end(), 0);
     std::fill(cloud.uFixed.begin() + cloud.nSolid(), cloud.uFixed.end(), 0);
-    for (const auto& [i, w] : content_->clamped)
-        cloud.Up[i].setXyz(content_->walls.walls()[w].surfaceVelocity.at(cloud.x[i].xyz()));
     if (const auto given = cloud.vectors.find(givenVelocity); given != cloud.vectors.end())
         std::fill(given->second.begin(), given->second.end(), vec4{});
-    cloud.entering.assign(content_->openFaces.size() + 1, std::numeric_limits<scalar>::quiet_NaN());
-    label number = 0;
-    for (const openFace& face : content_->openFaces) face.setFlags(cloud, rho, bodyForce, ++number);
+    cloud.entering.assign(1, std::numeric_limits<scalar>::quiet_NaN());
+    for (const auto& p : content_->patches) p->setFlags(cloud, rho, bodyForce);
     cloud.strip.assign(cloud.n(), 0), cloud.stripArea.assign(1, vector::Zero());
     cloud.stripIntake.assign(1, 0);
     const openFace::movingWalls moving = content_->movingWalls();
-    for (const openFace& face : content_->openFaces) face.setStrip(cloud, moving);
-}
-
-void boundary::clampSolids(particleCloud& cloud, const List<vec4>& x0, const dictionary& patches)
-{
-    const wallSet& walls = content_->walls;
-    for (label w = 0; w < label(walls.walls().size()); ++w)
-    {
-        const wall& at = walls.walls()[w];
-        for (const word& name : at.clamps)
-        {
-            const fileLocation where = patches.subDict(at.name).where("clamps");
-            const label zone = cloud.zoneIndex(name, where);
-            if (at.motion.slides())
-                throw fatalError("Wall " + at.name +
-                                     " slides or turns in itself: what it clamps would tear. Let "
-                                     "it move by 'motion', or clamp to a wall that stands",
-                                 where);
-            if (cloud.zones[zone].phase != phaseType::solid)
-                throw fatalError("Zone " + name + " is fluid: a wall clamps solids only", where);
-            const size_t before = content_->clamped.size();
-            for (label i = 0; i < cloud.nSolid(); ++i)
-                if (cloud.zone[i] == zone &&
-                    walls.distance(w, x0[i].xyz()) < at.clampDepth * cloud.dx)
-                    cloud.uFixed[i] = 1, content_->clamped.push_back({i, w});
-            if (content_->clamped.size() == before)
-                throw fatalError("No particle of zone " + name + " rests within " +
-                                     str(at.clampDepth) + " dx of wall " + at.name +
-                                     ": there is nothing to clamp. Do they touch?",
-                                 where);
-        }
-    }
+    for (const auto& p : content_->patches) p->setStrip(cloud, moving);
 }
 
 bool boundary::hasCyclic() const
 {
-    return !content_->cyclic.empty();
+    return content_->any([](const patch& p) { return p.pair() != nullptr; });
 }
 
 bool boundary::hasOpen() const
 {
-    return !content_->openFaces.empty();
+    return content_->any([](const patch& p) { return p.face() != nullptr; });
 }
 
 void boundary::setOpenVelocity(particleCloud& cloud, const List<vec4>& friction, scalar rho,
                                scalar dt) const
 {
-    for (const openFace& face : content_->openFaces) face.followInside(cloud, friction, rho, dt);
+    for (const auto& p : content_->patches) p->follow(cloud, friction, rho, dt);
 }
 
 bool boundary::outletsAgree(const particleCloud& cloud, scalar rho, scalar dt) const
 {
     bool all = true;
-    for (const openFace& face : content_->openFaces) all = face.agrees(cloud, rho, dt) && all;
+    for (const auto& p : content_->patches) all = p->agrees(cloud, rho, dt) && all;
     return all;
 }
 
@@ -170,44 +137,39 @@ void boundary::limitApproach(particleCloud& cloud, scalar gap, scalar dt) const
     if (!content_->walls.empty()) content_->guard.limitApproach(cloud, content_->walls, gap, dt);
 }
 
+// Moves the walls to the end t1 of the step, puts fluid back before them, and balances what they sweep
+label boundary::content::guardWalls(particleCloud& cloud, scalar t1)
+{
+    walls.moveTo(t0);
+    guard.rememberWalls(walls);
+    const List<scalar> swept = walls.moveTo(t1);
+    leaving.check(t1, cloud.dx);
+    if (walls.empty()) return 0;
+    const List<label> perWall = guard.apply(cloud, walls);
+    label pushed = 0;
+    for (size_t k = 0; k < perWall.size(); ++k)
+    {
+        patchBalance& b = balance[walls.walls()[k].index];
+        b.swept += swept[k], b.pushed += perWall[k], b.flux = -swept[k] / (t1 - t0);
+        pushed += perWall[k];
+    }
+    return pushed;
+}
+
 label boundary::exchange(particleCloud& cloud, scalar t1)
 {
     content& c = *content_;
+    const auto forPatches = [&](const auto& visit) {
+        for (size_t k = 0; k < c.patches.size(); ++k) visit(*c.patches[k], c.balance[k]);
+    };
     cloud.clearGhosts();
-    const scalar dt = t1 - c.t0;
-    for (const cyclicPair& pair : c.cyclic)
-    {
-        patchBalance& b = c.balance[pair.index];
-        b.flux = pair.flux(cloud, c.support), b.volume += b.flux * dt;
-    }
-    for (const openFace& face : c.openFaces) face.keepAlongNormals(cloud);
-    c.walls.moveTo(c.t0);
-    c.guard.rememberWalls(c.walls);
-    const List<scalar> swept = c.walls.moveTo(t1);
-    c.checkLeavingWalls(t1, cloud.dx);
-    label pushed = 0;
-    if (!c.walls.empty())
-    {
-        const List<label> perWall = c.guard.apply(cloud, c.walls);
-        for (const wall& w : c.walls.walls())
-        {
-            const size_t k = size_t(&w - c.walls.walls().data());
-            patchBalance& b = c.balance[w.index];
-            b.swept += swept[k], b.pushed += perWall[k], b.flux = -swept[k] / dt;
-            pushed += perWall[k];
-        }
-    }
+    forPatches([&](const patch& p, patchBalance& b) { p.measure(cloud, t1 - c.t0, b); });
+    forPatches([&](const patch& p, patchBalance&) { p.keepAlongNormals(cloud); });
+    const label pushed = c.guardWalls(cloud, t1);
     const List<label> turned = c.putBack(cloud);
     for (size_t k = 0; k < turned.size(); ++k) c.balance[k].pushed += turned[k];
     const openFace::movingWalls moving = c.movingWalls();
-    for (size_t k = 0; k < c.openFaces.size(); ++k)
-    {
-        patchBalance& b = c.balance[c.openIndex[k]];
-        const openFace::change change = c.openFaces[k].exchange(cloud, moving);
-        b.created += change.created, b.deleted += change.deleted;
-        b.flux = c.openFaces[k].flux(), b.volume += b.flux * dt;
-        c.openFaces[k].accept(cloud, c.t0, t1);
-    }
+    forPatches([&](const patch& p, patchBalance& b) { p.exchange(cloud, moving, c.t0, t1, b); });
     // sets z to zero: rounding errors of surfaces would grow, and nothing else keeps a two-dimensional case flat
     for (label i = cloud.nSolid(); cloud.nDims == 2 && i < cloud.n(); ++i)
         cloud.x[i][2] = cloud.Up[i][2] = 0;
@@ -256,14 +218,15 @@ triSurface boundary::surfaceOf(const word& name, const particleCloud& cloud,
 List<word> boundary::openFaces() const
 {
     List<word> names;
-    for (const openFace& face : content_->openFaces) names.push_back(face.name());
+    for (const auto& p : content_->patches)
+        if (p->face()) names.push_back(p->name());
     return names;
 }
 
 const triSurface& boundary::openSurface(const word& name) const
 {
-    for (const openFace& face : content_->openFaces)
-        if (face.name() == name) return face.mesh().surface();
+    for (const auto& p : content_->patches)
+        if (p->face() && p->name() == name) return p->face()->mesh().surface();
     throw fatalError("There is no open face '" + name + "'. " + validWords("face", openFaces()));
 }
 
@@ -296,20 +259,14 @@ vector boundary::wallVelocity(const word& name, const vector& x) const
 scalar boundary::maxGivenSpeed() const
 {
     scalar most = content_->walls.maxSpeed();
-    for (const openFace& face : content_->openFaces) most = std::max(most, face.givenSpeed());
+    for (const auto& p : content_->patches) most = std::max(most, p->givenSpeed());
     return most;
 }
 
 sweptRates boundary::swept(const particleCloud& cloud) const
 {
     sweptRates r = content_->wetted.rates(content_->walls, cloud);
-    for (const openFace& face : content_->openFaces)
-    {
-        if (!face.givesVelocity()) continue;
-        const List<scalar> q = face.givenFlux(cloud);
-        for (size_t z = 0; z < q.size(); ++z)
-            r.net[z] += q[z], r.gross[z] += std::abs(q[z]), r.faces[z] += std::abs(q[z]);
-    }
+    for (const auto& p : content_->patches) p->addSwept(cloud, r);
     return r;
 }
 
@@ -320,16 +277,12 @@ bool boundary::inside(const vector& x) const
 
 bool boundary::nearOpen(label i) const
 {
-    for (const openFace& face : content_->openFaces)
-        if (face.near(i)) return true;
-    return false;
+    return content_->any([&](const patch& p) { return p.near(i); });
 }
 
 bool boundary::reachesBeyondOpen(label i, scalar reach) const
 {
-    for (const openFace& face : content_->openFaces)
-        if (face.reachesBeyond(i, reach)) return true;
-    return false;
+    return content_->any([&](const patch& p) { return p.reachesBeyond(i, reach); });
 }
 
 }  // namespace ispf

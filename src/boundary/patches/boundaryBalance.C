@@ -26,37 +26,31 @@ const List<patchBalance>& boundary::balance() const
 
 void boundary::printBalance(const particleCloud& cloud) const
 {
-    const List<patchBalance>& patches = content_->balance;
-    const auto passes = [&](const patchBalance& b) {
-        for (const wall& w : content_->walls.walls())
-            if (w.name == b.name) return w.motion.moves();
-        for (const openFace& face : content_->openFaces)
-            if (face.name() == b.name) return true;
-        return false;
-    };
+    const List<std::unique_ptr<patch>>& patches = content_->patches;
     word fluxes, cyclic;
     scalar sum = 0;
     label created = 0, deleted = 0, pushed = 0;
-    for (const patchBalance& b : patches)
-    {
-        created += b.created, deleted += b.deleted, pushed += b.pushed;
-        if (!passes(b)) continue;
-        const scalar flux = symmetryFactor() * b.flux;  // of the whole body, as in the ledger
-        fluxes += (fluxes.empty() ? "" : ", ") + b.name + " " + str(flux), sum += flux;
-    }
     const word unit = "[m" + std::to_string(cloud.nDims) + "/s, ";
+    for (size_t k = 0; k < patches.size(); ++k)
+    {
+        const patchBalance& b = content_->balance[k];
+        created += b.created, deleted += b.deleted, pushed += b.pushed;
+        const scalar flux = symmetryFactor() * b.flux;  // of the whole body, as in the ledger
+        if (patches[k]->passesFlux())
+            fluxes += (fluxes.empty() ? "" : ", ") + b.name + " " + str(flux), sum += flux;
+        // cyclic pairs are not in the sum: what leaves at one plane enters at the other
+        if (patches[k]->pair())
+            cyclic += (cyclic.empty() ? unit + "along the separation]: " : ", ") + b.name + " " +
+                      str(flux);
+    }
     if (!fluxes.empty()) fluxes = unit + "out]: " + fluxes + ", sum " + str(sum);
-    // cyclic pairs are not in the sum: what leaves at one plane enters at the other
-    for (const cyclicPair& pair : content_->cyclic)
-        cyclic += (cyclic.empty() ? unit + "along the separation]: " : ", ") + pair.name + " " +
-                  str(symmetryFactor() * content_->balance[pair.index].flux);
     if (!fluxes.empty() && !cyclic.empty()) fluxes += "; ";
     if (!(fluxes + cyclic).empty()) info() << "patch flux " << fluxes << cyclic << "\n";
-    const auto strays = cloud.history.find("strays");
-    if (created + deleted + pushed > 0 || hasOpen() || strays != cloud.history.end())
+    const auto strays = cloud.state.find(entries::strays);
+    if (created + deleted + pushed > 0 || hasOpen() || strays)
         info() << "particles: " << cloud.n() << "; so far created " << created << ", deleted "
-               << deleted << ", put back " << pushed << "; strays "
-               << (strays == cloud.history.end() ? 0 : label(strays->second.at(0))) << "\n";
+               << deleted << ", put back " << pushed << "; strays " << label(strays.value_or(0))
+               << "\n";
 }
 
 void boundary::restoreBalance(const List<patchBalance>& balance)

@@ -301,8 +301,7 @@ struct imageMaker
         if (cloud.ghostSource(e) < 0)
         {
             const vec4& depth = cloud.ghostDepth(e);
-            return cloud.addRigid(at, b.xyz(), at + depth[3] * (map.R * depth.xyz()),
-                                  map.R * cloud.ghostGained(e));
+            return cloud.addRigid(at, b.xyz(), at + depth[3] * (map.R * depth.xyz()));
         }
         const label rule = cloud.ruleIndex(e);
         if (!productRule.count(rule))

@@ -56,13 +56,6 @@ void wall::setStep(scalar t0, scalar t1)
 {
     moveTo(t0), after = motion.frame(t1);
     surfaceVelocity = motion.surfaceVelocity(t0, t1), velocity = motion.velocity(t0, t1);
-    behind = 0;
-}
-
-vector wall::gained(const vector& x) const
-{
-    if (!(behind > 0)) return vector::Zero();
-    return velocity.at(x) - velocityBefore.at(x - behind * velocityBefore.at(x));
 }
 
 void wall::moveTo(scalar t)

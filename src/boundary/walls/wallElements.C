@@ -80,7 +80,7 @@ void wallSet::addRigid(particleCloud& cloud) const
             {
                 const vector foot = w.frame.toSpace(w.footOf(k)),
                              whose = w.motion.rotates() ? foot : at;
-                cloud.addRigid(at, w.velocity.at(whose), foot, w.gained(whose));
+                cloud.addRigid(at, w.velocity.at(whose), foot);
             }
 }
 

@@ -146,8 +146,8 @@ List<wallMirror::foot> wallMirror::feet(const particleCloud& cloud, const wallSe
         const bool bent = surface.mesh() && -f.depth < 0.75 * support_;
         const scalar volume = bent ? imageVolume(surface, f, cloud.nDims, cloud.dx) : 1;
         const vector at = frame.toSpace(f.foot);
-        found.push_back({p, frame.turn(f.normal), w.velocity.at(at), w.gained(at), -f.depth, volume,
-                         beside, w.slip});
+        found.push_back(
+            {p, frame.turn(f.normal), w.velocity.at(at), -f.depth, volume, beside, w.slip});
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const foot& a, const foot& b) { return a.distance < b.distance; });
@@ -188,7 +188,7 @@ private:
     void addImage(label i, const List<foot>& members)
     {
         wayToPlanes way, through;
-        vector direction = vector::Zero(), velocity = vector::Zero(), gained = vector::Zero();
+        vector direction = vector::Zero(), velocity = vector::Zero();
         bool rigid = true;
         scalar volume = 1;
         for (const foot& f : members)
@@ -197,12 +197,11 @@ private:
             way.add(f.normal, f.distance);
             through.add(f.normal, f.normal.dot(f.wallVelocity));
             direction += f.normal, velocity += f.wallVelocity / scalar(members.size());
-            gained += f.gained / scalar(members.size());
             rigid = rigid && mirror_.parts_[f.part].rigid;
         }
         if (way.s.norm() > mirror_.support_) return;
         const vector at = cloud_.x[i].xyz() + 2 * way.s;
-        if (rigid) cloud_.addRigid(at, velocity, at, gained);
+        if (rigid) cloud_.addRigid(at, velocity, at);
         else
         {
             const tensor A = velocityMap(members);

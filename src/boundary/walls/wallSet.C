@@ -133,32 +133,27 @@ void wallSet::setStep(scalar t0, scalar t1)
     for (wall& w : walls_) w.setStep(t0, t1);
 }
 
+namespace entries
+{
+
+// u of the wall in the last step, then L unless the velocity is uniform
+static stateEntry<List<scalar>> velocityOf(const wall& w)
+{
+    return {"velocity." + w.name};
+}
+
+}  // namespace entries
+
 void wallSet::keepVelocities(particleCloud& cloud) const
 {
     for (const wall& w : walls_)
     {
-        const word entry = "velocity." + w.name;
-        cloud.history.erase(entry);
+        cloud.state.erase(entries::velocityOf(w));
         if (!w.motion.moves() && !w.motion.slides()) continue;
-        List<scalar>& kept = cloud.history[entry];
-        kept.assign(w.velocity.u.begin(), w.velocity.u.end());
+        List<scalar> kept(w.velocity.u.begin(), w.velocity.u.end());
         if (!w.velocity.uniform)
             kept.insert(kept.end(), w.velocity.L.data(), w.velocity.L.data() + 9);
-    }
-}
-
-void wallSet::recallVelocities(const particleCloud& cloud, scalar behind)
-{
-    for (wall& w : walls_)
-    {
-        const auto kept = cloud.history.find("velocity." + w.name);
-        if (kept == cloud.history.end()) continue;
-        const List<scalar>& v = kept->second;
-        if (v.size() != 3 && v.size() != 12) continue;
-        w.behind = behind;
-        w.velocityBefore.u = vector(v[0], v[1], v[2]);
-        w.velocityBefore.uniform = v.size() < 12;
-        if (!w.velocityBefore.uniform) w.velocityBefore.L = Eigen::Map<const tensor>(&v[3]);
+        cloud.state.set(entries::velocityOf(w), kept);
     }
 }
 

@@ -15,7 +15,7 @@ namespace
 bool standsForWall(const particleCloud& cloud, label g)
 {
     if (g < cloud.n()) return false;
-    if (cloud.phase[g] == phaseType::rigid) return true;
+    if (cloud.ownerOf(g) < 0) return true;
     const ghostRule& rule = cloud.ruleOf(g);
     return (rule.M.topLeftCorner<3, 3>() - rule.R).cwiseAbs().maxCoeff() > 0.5;
 }
@@ -103,7 +103,7 @@ public:
         forNeighbours<among::all>(list, i, [&](pairIndex k, label j) {
             const label body = bodies_.of(i, j);
             if (body < 0) return;
-            const bool rigid = cloud.phase[j] == phaseType::rigid;
+            const bool rigid = cloud.ownerOf(j) < 0;
             const scalar both = rigid ? 2 * scale_[i] : scale_[i] + scale_[j];
             const vector xi = cloud.x[i].xyz(), xj = cloud.x[j].xyz();
             const scalar counts = cloud.friction(i, j);

@@ -17,13 +17,17 @@ const List<word> controls = {
     "adjustable", "clockTime", "cpuTime",    "onEnd",   "none",
     "always"};
 
-// Entry of cloud.history with the state of a function object
-word stateOf(const functionObject& f)
+}  // namespace
+
+namespace entries
 {
-    return "functions." + f.name();
+
+static stateEntry<List<scalar>> stateOf(const functionObject& f)
+{
+    return {"functions." + f.name()};
 }
 
-}  // namespace
+}  // namespace entries
 
 functionObjectList::functionObjectList(fsiCase& c)
     : functionObjectList(c, c.time.controlDict().subOrEmptyDict("functions"))
@@ -93,7 +97,9 @@ void functionObjectList::renew()
     const dictionary functions = case_.time.controlDict().subOrEmptyDict("functions");
     try
     {
-        const auto forget = [&](const item& i) { case_.cloud.history.erase(stateOf(*i.object)); };
+        const auto forget = [&](const item& i) {
+            case_.cloud.state.erase(entries::stateOf(*i.object));
+        };
         const auto isIn = [](const List<item>& items, const item& one) {
             return std::any_of(items.begin(), items.end(),
                                [&](const item& i) { return i.object == one.object; });
@@ -176,9 +182,8 @@ void functionObjectList::placeWalls()
 void functionObjectList::restore()
 {
     for (item& i : items_)
-        if (const auto kept = case_.cloud.history.find(stateOf(*i.object));
-            kept != case_.cloud.history.end())
-            i.object->restore(kept->second);
+        if (const auto kept = case_.cloud.state.find(entries::stateOf(*i.object)))
+            i.object->restore(*kept);
 }
 
 template <class Work>
@@ -211,7 +216,7 @@ void functionObjectList::execute()
     if (!case_.time.writeTime()) return;
     for (item& i : items_)
         if (const List<scalar> state = i.object->state(); !state.empty())
-            case_.cloud.history[stateOf(*i.object)] = state;
+            case_.cloud.state.set(entries::stateOf(*i.object), state);
 }
 
 void functionObjectList::end()

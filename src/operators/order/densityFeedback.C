@@ -36,10 +36,10 @@ void densityFeedback::addTo(List<scalar>& q, const adjointPair& pair, const List
 {
     added_ = 0;
     states_.assign(cloud_.zones.size(), {unknown, 0});
-    if (const auto known = cloud_.history.find(drainedZones);
-        known != cloud_.history.end() && known->second.size() == 2 * states_.size())
+    if (const auto known = cloud_.state.find(entries::drainedZones);
+        known && known->size() == 2 * states_.size())
         for (size_t z = 0; z < states_.size(); ++z)
-            states_[z] = {known->second[2 * z], known->second[2 * z + 1]};
+            states_[z] = {(*known)[2 * z], (*known)[2 * z + 1]};
     for (label z = 0; z < label(cloud_.zones.size()); ++z)
     {
         if (cloud_.zones[z].phase != phaseType::fluid) continue;
@@ -72,12 +72,10 @@ void densityFeedback::addTo(List<scalar>& q, const adjointPair& pair, const List
 void densityFeedback::book(particleCloud& cloud, scalar dt) const
 {
     if (!on()) return;
-    List<scalar>& booked = cloud.history[fluidFeedback];
-    booked.resize(1, 0);
-    booked[0] += added_ * dt;
-    List<scalar>& states = cloud.history[drainedZones];
-    states.clear();
+    cloud.state.add(entries::fluidFeedback, added_ * dt);
+    List<scalar> states;
     for (const zoneState& s : states_) states.push_back(s.start), states.push_back(s.source);
+    cloud.state.set(entries::drainedZones, states);
 }
 
 }  // namespace ispf

@@ -103,9 +103,9 @@ vector limitedChange(const particleCloud& cloud, const neighbourList& list, cons
     const auto differs = [&](label j) { return along.dot(cloud.Up[j].xyz() - cloud.Up[i].xyz()); };
     forNeighbours<among::same>(list, i,
                                [&](pairIndex, label j) { high = std::max(high, differs(j)); });
-    // a mirror image is as far beyond the wall as its source is before the wall
+    // an image is as far beyond the wall as its owner is before the wall
     forNeighbours<among::walls>(list, i, [&](pairIndex, label j) {
-        high = std::max(high, (cloud.phase[j] == phaseType::mirror ? 0.5 : 1) * differs(j));
+        high = std::max(high, (cloud.ownerOf(j) >= 0 ? 0.5 : 1) * differs(j));
     });
     return std::min(size, high) * along;
 }

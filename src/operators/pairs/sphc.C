@@ -10,28 +10,7 @@ namespace ispf
 namespace
 {
 
-constexpr simd4 withoutPressure = {1, 1, 1, 0};
 constexpr scalar singular = 0.02;  // least determinant of a correction's moment matrix
-
-// Adds the terms of neighbours of other phases.  A rigid neighbour has no pressure
-ISPF_INLINE void addOthers(pairSums& sums, const stencil& s, const vec4* phi, label i)
-{
-    forNeighbours<among::others>(s.list, i, [&](pairIndex k, label j) {
-        const simd4 g = s.list.F[k] * (s.cloud.x[i].s - s.cloud.x[j].s);
-        simd4 e = phi[j].s - phi[i].s;
-        if (s.cloud.phase[j] == phaseType::rigid) e *= withoutPressure;
-        sums.gx += e * g[0], sums.gy += e * g[1], sums.gz += e * g[2];
-        sums.lap += s.list.F[k] * e;
-    });
-}
-
-ISPF_INLINE pairSums rowSums(const stencil& s, const vec4* phi, label i)
-{
-    pairSums sums;
-    sums.add(s.list, s.cloud.x.data(), phi, i, rowOf<among::same>(s.list, i));
-    addOthers(sums, s, phi, i);
-    return sums;
-}
 
 // The correction that i would have if images behind curved walls had the volume of their sources
 tensor viscousCorrection(const stencil& s, label i)
@@ -55,7 +34,8 @@ List<scalar> sphc::gradSquaredTrace(const stencil& s, const List<vec4>& phi)
     parallelFor(s.cloud.n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
-            const pairSums sums = rowSums(s, phi.data(), i);
+            pairSums sums;
+            sums.add(s.list, s.cloud.x.data(), phi.data(), i, rowOf<among::all>(s.list, i));
             tensor gradU;
             for (int a = 0; a < 3; ++a) gradU.row(a) = (s.B.all[i] * sums.gradient(a)).transpose();
             result[i] = (gradU * gradU).trace();
@@ -78,7 +58,7 @@ List<scalar> sphc::laplacianScale(const stencil& s)
         }
     });
     for (label g = cloud.n(); g < cloud.nAll(); ++g)
-        if (cloud.ghostSource(g) >= 0) c[g] = c[cloud.ghostSource(g)];
+        c[g] = cloud.ghostSource(g) >= 0 ? c[cloud.ghostSource(g)] : 0;
     return c;
 }
 

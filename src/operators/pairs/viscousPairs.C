@@ -28,7 +28,7 @@ void viscousPairs::setup(const stencil& s)
         if (const label i = s.cloud.ownerOf(j); i >= 0 && s.cloud.beyondOpen(i)) c[j] = 1;
     K_.resize(s.list.index.size()), sum_.assign(s.cloud.n(), 0);
     forPairs<among::all>(s.list, 0, s.cloud.n(), [&](label i, pairIndex k, label j) {
-        const scalar other = s.cloud.phase[j] == phaseType::rigid ? c[i] : c[j];
+        const scalar other = c[j] > 0 ? c[j] : c[i];
         K_[k] = 0.5 * (c[i] + other) * s.cloud.friction(i, j) * sphc::viscousF(s.cloud, s.list, k);
         sum_[i] += K_[k];
     });
@@ -62,8 +62,7 @@ viscousPairs::power viscousPairs::powerOf(const List<vec4>& u) const
             if (owner >= 0 && cloud.beyondOpen(owner))
                 sum.dissipated += half, sum.faces += all - half;
             else if (owner < 0 || clamped) sum.dissipated += 2 * half, sum.walls += all - 2 * half;
-            else if (cloud.phase[j] == phaseType::mirror)
-                sum.dissipated += half, sum.walls += all - half;
+            else if (!cloud.isMedium(j)) sum.dissipated += half, sum.walls += all - half;
             else sum.dissipated += half;
         });
     };

@@ -18,12 +18,12 @@ struct view
     const particleCloud& cloud;
     const neighbourList& list;
 
-    // Calls visit(j, F_ij) for the rigid neighbours
+    // Calls visit(j, F_ij) for the particles of walls, which are no images
     template <class Visit>
     void forRigid(label i, const Visit& visit) const
     {
         forNeighbours<among::walls>(list, i, [&](pairIndex k, label j) {
-            if (cloud.phase[j] == phaseType::rigid) visit(j, list.F[k]);
+            if (cloud.ownerOf(j) < 0) visit(j, list.F[k]);
         });
     }
 
@@ -48,7 +48,7 @@ struct view
                     n.dot(cloud.x[i].xyz() - cloud.x[j].xyz() - depth[3] * depth.xyz());
         });
         forNeighbours<among::all>(list, i, [&](pairIndex k, label j) {
-            if (cloud.phase[j] != phaseType::rigid)
+            if (cloud.ownerOf(j) >= 0)
                 fluid += list.F[k] * n.dot(cloud.x[i].xyz() - cloud.x[j].xyz());
         });
         return wall < 0 ? std::clamp(-fluid / wall, 0.5, 2.0) : 1;
@@ -56,8 +56,8 @@ struct view
 
     bool seesRigid(label i) const
     {
-        return anyNeighbour<among::walls>(
-            list, i, [&](pairIndex, label j) { return cloud.phase[j] == phaseType::rigid; });
+        return anyNeighbour<among::walls>(list, i,
+                                          [&](pairIndex, label j) { return cloud.ownerOf(j) < 0; });
     }
 
     // Entry of the list that is the particle's own image in a wall; -1: no such entry or several

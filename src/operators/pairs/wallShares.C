@@ -22,9 +22,7 @@ List<label> besideWalls(const particleCloud& cloud, const neighbourList& list)
     for (label i = 0; i < cloud.n(); ++i)
         if (sees[i]) found.push_back(i);
     for (label g = cloud.n(); g < cloud.nAll(); ++g)
-        if (cloud.phase[g] != phaseType::rigid && cloud.phase[g] != phaseType::mirror &&
-            sees[cloud.ghostSource(g)])
-            found.push_back(g);
+        if (cloud.isMedium(g) && sees[cloud.ghostSource(g)]) found.push_back(g);
     return found;
 }
 

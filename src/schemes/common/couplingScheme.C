@@ -27,12 +27,17 @@ constexpr scalar roughest = 0.2, aimedAt = 0.8;
 constexpr scalar mostGained = 0.05;
 // A gain of energy is rounding if the fastest particle moves less than this in one step [dx]
 constexpr scalar atRest = 1e-9;
-// Entry of cloud.history: largest local error of a way in the last step, over dt^2 [m/s^2]
-const word roughOfStep = "wayError";
-// Entry of cloud.history, with adjustTimeStep: length of the last accepted step [s]
-const word lastAccepted = "acceptedStep";
-
 }  // namespace
+
+namespace entries
+{
+
+// With adjustTimeStep: largest local error of a way in the last step, over dt^2 [m/s^2]
+const stateEntry<scalar> wayError{"wayError"};
+// With adjustTimeStep: length of the last accepted step [s]
+const stateEntry<scalar> acceptedStep{"acceptedStep"};
+
+}  // namespace entries
 
 couplingScheme::couplingScheme(fsiCase& c) : c_(c), energy_(c), endless_(shiftingFrame(c) == "mean")
 {
@@ -65,7 +70,7 @@ bool couplingScheme::step(scalar t, scalar dt)
             return false;
         }
         refusals_ = 0;
-        c_.cloud.history[lastAccepted] = {dt};
+        c_.cloud.state.set(entries::acceptedStep, dt);
     }
     else advance(t, dt, 0);
     if (c_.structure && c_.time.writeTime()) keep();
@@ -137,7 +142,7 @@ word couplingScheme::tooRough(const timeScheme& time, scalar dt, bool mean)
             return "the way of " + cloud.describe(i) + " is uncertain by " +
                    str(error / cloud.dx, 3) + " dx, so fast does its velocity change";
     }
-    if (c_.time.adjustTimeStep()) c_.cloud.history[roughOfStep] = {worst / (dt * dt)};
+    if (c_.time.adjustTimeStep()) c_.cloud.state.set(entries::wayError, worst / (dt * dt));
     return "";
 }
 
@@ -145,14 +150,14 @@ couplingScheme::stepLimit couplingScheme::adjusted(const stepLimit& own) const
 {
     if (!c_.time.adjustTimeStep()) return own;
     stepLimit least = own;
-    const auto within = [&](const word& entry, const word& rule, auto&& stepOf) {
-        const auto known = c_.cloud.history.find(entry);
-        if (known == c_.cloud.history.end() || !(known->second.at(0) > 0)) return;
-        if (const scalar dt = stepOf(known->second[0]); dt < least.dt) least = {dt, rule};
+    const auto within = [&](const stateEntry<scalar>& entry, const word& rule, auto&& stepOf) {
+        const scalar known = c_.cloud.state.get(entry, 0);
+        if (!(known > 0)) return;
+        if (const scalar dt = stepOf(known); dt < least.dt) least = {dt, rule};
     };
-    within(roughOfStep, "local error",
+    within(entries::wayError, "local error",
            [&](scalar error) { return std::sqrt(aimedAt * roughest * c_.cloud.dx / error); });
-    within(lastAccepted, "growth", [](scalar dt) { return fastestGrowth * dt; });
+    within(entries::acceptedStep, "growth", [](scalar dt) { return fastestGrowth * dt; });
     return least;
 }
 

@@ -17,6 +17,14 @@ constexpr scalar balanced = 0.3;
 
 }  // namespace
 
+namespace entries
+{
+
+// The numbers of enclosedFluid::state, defect first
+const stateEntry<List<scalar>> divergenceDefect{"divergenceDefect"};
+
+}  // namespace entries
+
 void enclosedFluid::setup(const solidGradient& gradientOf, const solidSurface* surface)
 {
     surface_ = surface;
@@ -91,7 +99,7 @@ void enclosedFluid::addDefect(List<scalar>& q)
 void enclosedFluid::account(particleCloud& cloud, scalar dt, const List<tensor>& dF,
                             scalar way) const
 {
-    if (inactive() && !cloud.history.count(divergenceDefect)) return;
+    if (inactive() && !cloud.state.find(entries::divergenceDefect)) return;
     state s(cloud);
     std::fill(s.defect.begin(), s.defect.end(), 0);
     for (const body& b : bodies_)
@@ -106,17 +114,18 @@ void enclosedFluid::account(particleCloud& cloud, scalar dt, const List<tensor>&
 
 enclosedFluid::state::state(const particleCloud& cloud) : defect(cloud.zones.size(), 0)
 {
-    const auto found = cloud.history.find(divergenceDefect);
+    const auto kept = cloud.state.find(entries::divergenceDefect);
     const size_t nz = defect.size();
-    if (found == cloud.history.end() || found->second.size() != nz + 1) return;
-    std::copy_n(found->second.data(), nz, defect.begin());
-    booked = found->second[nz];
+    if (!kept || kept->size() != nz + 1) return;
+    std::copy_n(kept->data(), nz, defect.begin());
+    booked = kept->back();
 }
 
 void enclosedFluid::state::write(particleCloud& cloud) const
 {
-    List<scalar>& to = cloud.history[divergenceDefect];
-    to = defect, to.push_back(booked);
+    List<scalar> kept = defect;
+    kept.push_back(booked);
+    cloud.state.set(entries::divergenceDefect, kept);
 }
 
 // Takes the mean off the continuity rows of the n particles with counts(i)

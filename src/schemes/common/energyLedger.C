@@ -9,13 +9,12 @@
 namespace ispf
 {
 
-namespace
+namespace entries
 {
 
-// Entry of cloud.history: the energies at the end of the last step, the sums of the terms, and leftOver
-const word entry = "energyLedger";
+const stateEntry<energyLedger::account> energies{"energyLedger"};
 
-}  // namespace
+}  // namespace entries
 
 const std::array<word, energyLedger::nStores + energyLedger::nTerms + 1> energyLedger::titles = {
     "kinetic",   "elastic", "potential",  "walls",    "faces",  "forces",  "sources",
@@ -23,12 +22,8 @@ const std::array<word, energyLedger::nStores + energyLedger::nTerms + 1> energyL
 
 energyLedger::energyLedger(fsiCase& c) : c_(c)
 {
-    List<scalar>& sums = c.cloud.history[entry];
-    if (sums.size() != titles.size())
-    {
-        sums.assign(titles.size(), 0);
-        sums[0] = std::numeric_limits<scalar>::quiet_NaN();
-    }
+    if (!c.cloud.state.find(entries::energies))
+        c.cloud.state.set(entries::energies, {std::numeric_limits<scalar>::quiet_NaN()});
     file_ =
         std::make_unique<dataFile>(c.caseFolder() + "/postProcessing/energyLedger/" +
                                        c.time.timeName(c.time.startTime()) + "/energyLedger.dat",
@@ -40,15 +35,13 @@ energyLedger::energyLedger(fsiCase& c) : c_(c)
 
 List<scalar> energyLedger::sums(const fsiCase& c)
 {
-    const auto kept = c.cloud.history.find(entry);
-    if (kept == c.cloud.history.end() || kept->second.size() != titles.size())
-        return List<scalar>(titles.size() - nStores, 0);
-    return List<scalar>(kept->second.begin() + nStores, kept->second.end());
+    const account kept = c.cloud.state.get(entries::energies, {});
+    return List<scalar>(kept.begin() + nStores, kept.end());
 }
 
-List<scalar>& energyLedger::state() const
+energyLedger::account energyLedger::kept() const
 {
-    return c_.cloud.history.at(entry);
+    return c_.cloud.state.get(entries::energies, {});
 }
 
 scalar energyLedger::kineticNow() const
@@ -79,7 +72,7 @@ void energyLedger::begin(const List<vec4>& x)
     terms_ = {}, left_ = 0;
     begin_ = energies(x);
     last_ = begin_;
-    if (const List<scalar>& sums = state(); !std::isnan(sums[0]))
+    if (const account sums = kept(); !std::isnan(sums[0]))
         std::copy_n(sums.begin(), nStores, last_.begin());
     terms_[c_.walls->hasOpen() ? faces : forces] +=
         begin_[kinetic] - last_[kinetic] + begin_[potential] - last_[potential];
@@ -97,7 +90,7 @@ scalar energyLedger::level(const List<vec4>& up) const
 
 scalar energyLedger::taken() const
 {
-    const List<scalar>& sums = state();
+    const account sums = kept();
     scalar without = 0;
     for (const term t : {step, stabiliser, shifting}) without -= sums[nStores + t] + terms_[t];
     return std::max(scalar(0), std::min(-terms_[viscosity], without)) /
@@ -150,10 +143,11 @@ void energyLedger::end()
 
 void energyLedger::book()
 {
-    List<scalar>& sums = state();
+    account sums = kept();
     std::copy(end_.begin(), end_.end(), sums.begin());
     for (int t = 0; t < nTerms; ++t) sums[nStores + t] += terms_[t];
     sums.back() += left_;
+    c_.cloud.state.set(entries::energies, sums);
 }
 
 std::pair<scalar, scalar> energyLedger::fromNothing() const
@@ -179,7 +173,7 @@ word energyLedger::largest() const
 void energyLedger::writeLine()
 {
     const scalar whole = c_.walls->symmetryFactor();
-    const List<scalar>& sums = state();
+    const account sums = kept();
     file_->begin(c_.time.value());
     for (const scalar value : sums) *file_ << whole * value;
     file_->endRow();

@@ -18,6 +18,14 @@ void printCourant(const particleCloud& cloud, scalar dt)
     info() << "Courant Number mean: " << sum / cloud.n() << " max: " << most << std::endl;
 }
 
+namespace entries
+{
+
+// Sum of the global errors since the start
+const stateEntry<scalar> continuityErrors{"continuityErrors"};
+
+}  // namespace entries
+
 void printContinuityErrors(particleCloud& cloud, const List<scalar>& left, scalar dt)
 {
     scalar local = 0, global = 0;
@@ -26,11 +34,9 @@ void printContinuityErrors(particleCloud& cloud, const List<scalar>& left, scala
         const scalar error = dt * e / scalar(left.size());
         local += std::abs(error), global += error;
     }
-    List<scalar>& cumulative = cloud.history["continuityErrors"];
-    cumulative.resize(1, 0);
-    cumulative[0] += global;
+    cloud.state.add(entries::continuityErrors, global);
     info() << "time step continuity errors : sum local = " << local << ", global = " << global
-           << ", cumulative = " << cumulative[0] << std::endl;
+           << ", cumulative = " << cloud.state.get(entries::continuityErrors, 0) << std::endl;
 }
 
 }  // namespace ispf

@@ -55,10 +55,9 @@ void timeScheme::start(particleCloud& cloud, scalar t, scalar dt)
     a2_ = 1, a1_ = -1, a0_ = 0, b2_ = 1, b1_ = b0_ = 0;
     newest_ = 0.5, oldest_ = 0, l2_ = M_SQRT1_2, l1_ = -M_SQRT1_2, l0_ = 0;
     if (!DLN_) return;
-    const auto known = cloud.history.find(levelBefore);
-    if (known == cloud.history.end() || !fieldOf(cloud, levelBefore) || !fieldOf(cloud, lastWay))
-        return;
-    before_ = known->second.at(0);
+    const auto known = cloud.state.find(entries::levelBefore);
+    if (!known || !fieldOf(cloud, levelBefore) || !fieldOf(cloud, lastWay)) return;
+    before_ = *known;
     setCoefficients(before_);
     List<vec4>& way = cloud.vectors[aheadOfStep];
     way.assign(cloud.n(), vec4{});
@@ -134,7 +133,7 @@ void timeScheme::end(particleCloud& cloud, energyLedger& energy)
     energy[energyLedger::step] += c_.rho * cloud.volume() * (gained - taken);
     if (!keeps_) return;
     cloud.vectors[levelBefore] = now_;
-    cloud.history[levelBefore] = {dt_};
+    cloud.state.set(entries::levelBefore, dt_);
 }
 
 // Velocity with which particle i moves over the whole step

@@ -3,6 +3,7 @@
 #include "densityFeedback.H"
 #include "enclosedFluid.H"
 
+#include <array>
 #include <ostream>
 
 namespace ispf
@@ -15,6 +16,14 @@ const List<word> titles = {"swept",        "cavity", "openNet",    "wall",      
                            "wallFeedback", "defect", "wallDefect", "fluidFeedback"};
 
 }  // namespace
+
+namespace entries
+{
+
+// Volume put in by the control [m^nDims], its source [1/s], and the first volume of the solid [m^nDims]
+const stateEntry<std::array<scalar, 3>> volumeControl{"volumeLedger"};
+
+}  // namespace entries
 
 volumeLedger::volumeLedger(fsiCase& c)
     : c_(c),
@@ -36,11 +45,11 @@ volumeLedger::volumeLedger(fsiCase& c)
         cavity0_ = cavity_->restVolume();
     }
     wall0_ = wallVolume();
-    if (cavity_ || c.structure)  // the history keeps it over a restart
+    if (cavity_ || c.structure)  // the state keeps it over a restart
     {
-        List<scalar>& state = c.cloud.history["volumeLedger"];
-        if (state.size() == 3) controlled_ = state[0], source_ = state[1], wall0_ = state[2];
-        else state = {0, 0, wall0_};
+        const auto kept = c.cloud.state.get(entries::volumeControl, {0, 0, wall0_});
+        controlled_ = kept[0], source_ = kept[1], wall0_ = kept[2];
+        c.cloud.state.set(entries::volumeControl, kept);
     }
     c.source.assign(c.cloud.zones.size(), 0);
     if (zone_ >= 0) c.source[zone_] = source_;
@@ -63,16 +72,15 @@ scalar volumeLedger::wallVolume() const
     return sum * c_.cloud.volume() * c_.walls->symmetryFactor();
 }
 
-// The last number of a history entry, for the whole body; 0 without the entry
-static scalar booked(const fsiCase& c, const word& entry)
+// Volume that a source has put into the whole body
+scalar volumeLedger::booked(const stateEntry<scalar>& entry) const
 {
-    const auto found = c.cloud.history.find(entry);
-    return found == c.cloud.history.end() ? 0 : found->second.back() * c.walls->symmetryFactor();
+    return c_.cloud.state.get(entry, 0) * c_.walls->symmetryFactor();
 }
 
 scalar volumeLedger::wallFeedback() const
 {
-    return booked(c_, solidFeedback);
+    return booked(entries::solidFeedback);
 }
 
 void volumeLedger::update(scalar dt)
@@ -95,7 +103,7 @@ void volumeLedger::update(scalar dt)
             "is fine enough, or set relaxation 0 in volumeLedger of system/sphSolution");
     source_ = fluid > 0 ? -relaxation_ * (cavityChange() - swept()) / (fluid * dt) : 0;
     c_.source[zone_] = source_;
-    c_.cloud.history["volumeLedger"] = {controlled_, source_, wall0_};
+    c_.cloud.state.set(entries::volumeControl, {controlled_, source_, wall0_});
 }
 
 void volumeLedger::writeLine()
@@ -105,9 +113,9 @@ void volumeLedger::writeLine()
     open *= c_.cloud.volume() * c_.walls->symmetryFactor();
     file_.begin(c_.time.value());
     const scalar wall = wallVolume() - wall0_, feedback = wallFeedback();
-    for (const scalar v :
-         {swept(), cavityChange(), open, wall, controlled_, feedback, booked(c_, divergenceDefect),
-          booked(c_, solidDefect), booked(c_, fluidFeedback)})
+    for (const scalar v : {swept(), cavityChange(), open, wall, controlled_, feedback,
+                           enclosedFluid::added(c_.cloud) * c_.walls->symmetryFactor(),
+                           booked(entries::solidDefect), booked(entries::fluidFeedback)})
         file_ << v;
     file_.endRow();
     const auto inMm = [&](scalar v) {
@@ -116,8 +124,8 @@ void volumeLedger::writeLine()
     info() << "volume ledger: swept " << inMm(swept());
     if (cavity_) info() << ", cavity " << inMm(cavityChange()) << ", control " << inMm(controlled_);
     if (c_.structure) info() << ", wall " << inMm(wall) << ", feedback " << inMm(feedback);
-    if (c_.walls->hasOpen() && c_.cloud.history.count(fluidFeedback))
-        info() << ", into drained fluid " << inMm(booked(c_, fluidFeedback));
+    if (c_.walls->hasOpen() && c_.cloud.state.find(entries::fluidFeedback))
+        info() << ", into drained fluid " << inMm(booked(entries::fluidFeedback));
     info() << "\n";
 }
 

@@ -14,17 +14,15 @@
 //         beta 1; multigrid {..}
 //     }
 //     shifting { ... }     densityFeedback 0;
-#include "closedBodies.H"
 #include "couplingScheme.H"
-#include "densityFeedback.H"
 #include "elasticStep.H"
 #include "FGMRES.H"
+#include "fluidSources.H"
 #include "monolithicPreconditioner.H"
 #include "particleShifting.H"
 #include "shiftingFrame.H"
 #include "stepReport.H"
-#include "timeScheme.H"
-#include "volumeLedger.H"
+#include "stepSources.H"
 #include "worstRow.H"
 
 #include <algorithm>
@@ -36,9 +34,6 @@ namespace ispf
 
 namespace
 {
-
-// Field of the particles: error of J that the rate of J has left in the last step
-const word missedField = "missedJ";
 
 // Below this cell Reynolds number viscosity damps the scales that dx does not resolve
 constexpr scalar resolved = 5;
@@ -83,21 +78,16 @@ public:
           preconditioner_(system_, e.preconditioner),
           elastic_(c.structure.get(), e.newton),
           theta_(e.theta),
-          alpha_(e.alpha),
           tolerance_(e.tolerance),
           absTolerance_(e.absTolerance),
           maxIter_(e.maxIter),
           time_(c),
-          makesGood_(e.makesGood),
           shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c),
-                    shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx)),
-          density_(c.solution, c.cloud)
+                    shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx))
     {
         time_.keepLevels();
-        system_.enclosed().makeGood(makesGood_);
-        if (!c.structure) return;
-        c.cloud.scalars[missedField].resize(c.cloud.n(), 0);
-        volume_ = std::make_unique<volumeConstraint>(*c.structure);
+        if (c.structure) volume_ = std::make_unique<volumeConstraint>(*c.structure);
+        addSources(e);
     }
 
 private:
@@ -105,15 +95,12 @@ private:
     word attempt(scalar t, scalar dt) override;
     word advice() const override;
 
+    void addSources(const monolithicEntries& e);
+    void begin(scalar t, scalar dt);
     void structureState();
+    void assemble();
     List<scalar> guess() const;
-    scalar feedback(label i, scalar dt) const;
-    scalar missed(label i, scalar dt) const;
-    template <class Source>
-    void book(const word& entry, scalar dt, Source&& source);
     void accept(const List<scalar>& z);
-    void account(scalar dt);
-    void addWay(scalar dt);
     word solve(scalar dt, List<scalar>& z);
     word pass(FGMRES& solver, List<scalar>& b, List<scalar>& z);
     void keepContinuityErrors(const List<scalar>& b, const List<scalar>& z, scalar dt);
@@ -124,20 +111,33 @@ private:
     coupledSystem system_;
     monolithicPreconditioner preconditioner_;
     elasticStep elastic_;
-    scalar theta_, alpha_, tolerance_, absTolerance_;
+    scalar theta_, tolerance_, absTolerance_;
     label maxIter_;
     timeScheme time_;
-    bool makesGood_;
     particleShifting shifting_;
-    densityFeedback density_;
 
     std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
     List<tensor> F_;
-    List<scalar> q_;      // sources of the step [1/s]
-    List<scalar> left_;   // residual of continuity after the solution [1/s]
-    List<scalar> ahead_;  // J that the first step of DLN corrects in advance, else empty [1]
+    volumeSources sources_;
+    List<scalar> q_;     // their sum in the step [1/s]
+    List<scalar> left_;  // residual of continuity after the solution [1/s]
 };
+
+void monolithic::addSources(const monolithicEntries& e)
+{
+    system_.enclosed().makeGood(e.makesGood);
+    if (volume_)
+    {
+        sources_.add(std::make_unique<solidFeedback>(c_.cloud, F_, e.alpha));
+        sources_.add(std::make_unique<solidDefect>(c_.cloud, *volume_, time_, left_, e.makesGood));
+    }
+    sources_.add(std::make_unique<zoneSource>(c_));
+    sources_.add(std::make_unique<firstWaySource>(c_, time_));
+    sources_.add(std::make_unique<drainedSource>(c_, system_.rows().pair()));
+    sources_.add(
+        std::make_unique<enclosedDefect>(c_.cloud, system_.enclosed(), volume_.get(), time_));
+}
 
 scalar monolithic::velocityScale() const
 {
@@ -180,9 +180,9 @@ List<scalar> monolithic::guess() const
 {
     const particleCloud& cloud = c_.cloud;
     const auto old = cloud.vectors.find(levelBefore);
-    const auto lastDt = cloud.history.find(levelBefore);
-    const bool has = old != cloud.vectors.end() && lastDt != cloud.history.end();
-    const scalar before = has ? lastDt->second[0] : 1;
+    const auto lastDt = cloud.state.find(entries::levelBefore);
+    const bool has = old != cloud.vectors.end() && lastDt;
+    const scalar before = lastDt.value_or(1);
     const scalar u = has ? time_.velocitiesAhead() / before : 0;
     const scalar p = has ? time_.pressuresAhead() / before : 0;
     const simd4 ratio = {u, u, u, p};
@@ -197,91 +197,26 @@ List<scalar> monolithic::guess() const
     return z;
 }
 
-// Volume source of solid particle i that relaxes J to 1 [1/s]
-scalar monolithic::feedback(label i, scalar dt) const
-{
-    return -alpha_ * (F_[i].determinant() - 1) / dt;
-}
-
-scalar monolithic::missed(label i, scalar dt) const
-{
-    return makesGood_ ? -c_.cloud.scalars.at(missedField)[i] / dt : 0;
-}
-
-template <class Source>
-void monolithic::book(const word& entry, scalar dt, Source&& source)
-{
-    scalar rate = 0;
-    for (label i = 0; i < c_.cloud.nSolid(); ++i) rate += source(i);
-    List<scalar>& booked = c_.cloud.history[entry];
-    booked.resize(1, 0);
-    booked[0] += rate * c_.cloud.volume() * dt;
-}
-
 void monolithic::accept(const List<scalar>& z)
 {
     particleCloud& cloud = c_.cloud;
-    cloud.history.erase(projected);
+    cloud.state.erase(entries::projectedStep);
     for (label i = 0; i < cloud.n(); ++i)
         cloud.Up[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], z[4 * i + 3]};
 }
 
-// Books the volumes that the step's sources have added, and keeps the errors of its rates for the next step
-void monolithic::account(scalar dt)
+// Coefficients of (7.1) and (7.2) for the present neighbours
+void monolithic::assemble()
 {
-    density_.book(c_.cloud, dt);
-    List<tensor> dF;
-    if (c_.structure)
-    {
-        List<scalar> dJ;
-        volume_->rate(c_.cloud.Up, dJ, dF);
-        book(solidFeedback, dt, [&](label i) { return feedback(i, dt); });
-        book(solidDefect, dt, [&](label i) { return missed(i, dt); });
-        List<scalar> missed;
-        volume_->overStep(c_.cloud.Up, time_.midway() ? 0 : dt, missed);
-        for (size_t i = 0; i < ahead_.size(); ++i) missed[i] -= ahead_[i];
-        // the solver's residual has changed J by this, doc/theory 5.6
-        for (size_t i = 0; i < missed.size(); ++i) missed[i] += dt * left_[i];
-        std::copy(missed.begin(), missed.end(), c_.cloud.scalars.at(missedField).begin());
-    }
-    // with forces at x_b the geometry is the mean over the step already
-    system_.enclosed().account(c_.cloud, dt, dF, time_.midway() ? 0 : dt);
+    if (c_.structure) system_.setup(time_.tau(), volume_.get(), &surface_, &elastic_.tangent());
+    else system_.setup(time_.tau(), nullptr, nullptr, nullptr);
+    preconditioner_.setup();
 }
 
-// Adds sources so that div u is zero at the next places of the particles, and J is one there
-void monolithic::addWay(scalar dt)
-{
-    particleCloud& cloud = c_.cloud;
-    if (c_.structure)
-    {
-        volume_->overStep(cloud.Up, dt, ahead_);
-        for (label i = 0; i < cloud.nSolid(); ++i) q_[i] -= ahead_[i] / dt;
-    }
-    cloud.fillGhosts(cloud.Up, false);
-    const List<scalar> loses = sphc::gradSquaredTrace({cloud, c_.list, c_.correction}, cloud.Up);
-    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        if (!cloud.beyondOpen(i)) q_[i] += dt * loses[i];
-}
-
-// Solves for z = {u, v, w, p}.  Returns an empty text or the reason why the step cannot be accepted
+// Solves (7.7) and (7.2) for z = {u, v, w, p}.  Returns an empty text or the reason why the step cannot be accepted
 word monolithic::solve(scalar dt, List<scalar>& z)
 {
     const particleCloud& cloud = c_.cloud;
-    List<scalar>& q = q_;
-    q.assign(cloud.n(), 0);
-    for (label i = 0; i < cloud.nSolid(); ++i) q[i] = feedback(i, dt) + missed(i, dt);
-    for (label i = cloud.nSolid(); i < cloud.n() && !c_.source.empty(); ++i)
-        q[i] = c_.source[cloud.zone[i]];
-    ahead_.clear();
-    if (time_.wellStarts()) addWay(dt);
-    if (c_.structure) system_.setup(time_.tau(), volume_.get(), &surface_, &elastic_.tangent());
-    else system_.setup(time_.tau(), nullptr, nullptr, nullptr);
-    if (density_.on() && !c_.walls->hasCyclic())
-        density_.addTo(q, system_.rows().pair(),
-                       drainedFluid(cloud, c_.list, system_.enclosed().bodyOf()), dt);
-    system_.enclosed().addDefect(q);
-    preconditioner_.setup();
-
     z = guess();
     solverControls controls;
     const scalar least = rounding(time_.tau(), z);
@@ -340,7 +275,8 @@ word monolithic::advice() const
            "motion jumps";
 }
 
-word monolithic::attempt(scalar t, scalar dt)
+// Places of the forces, u_0, the neighbours and the state of the solid there
+void monolithic::begin(scalar t, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
     time_.start(cloud, t, dt);
@@ -350,30 +286,39 @@ word monolithic::attempt(scalar t, scalar dt)
     structureState();
     system_.hydrostatic().take(cloud);
     time_.begin(cloud);
+}
+
+word monolithic::attempt(scalar t, scalar dt)
+{
+    particleCloud& cloud = c_.cloud;
+    begin(t, dt);  // x_b and u_0 of (8.41), p' of (1.9)
     const List<vec4> start(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
     List<scalar> z;
     const word fails = atTime(t + dt, [&] {
-        return c_.time.stages.in("velocity and pressure", [&] { return solve(dt, z); });
+        return c_.time.stages.in("velocity and pressure", [&] {
+            assemble();                        // rows of (7.1) and (7.2)
+            q_ = sources_.sum(cloud.n(), dt);  // q of (7.2)
+            return solve(dt, z);               // (7.7)
+        });
     });
     if (!fails.empty()) return fails;
     accept(z);
-    energy_.weigh(time_.weight(),
+    energy_.weigh(time_.weight(),  // (7.4)
                   [&] { system_.book(start, theta_, elastic_.force(), q_, energy_); });
-    if (outletsDiffer(time_.tau())) return outletsAsk;
+    if (outletsDiffer(time_.tau())) return outletsAsk;  // (4.11)
     if (const word reason = tooFar(dt); !reason.empty()) return reason;
-    account(dt);
-    time_.end(cloud, energy_);
-    system_.hydrostatic().giveBack(cloud);
-    if (const word reason = tooRough(time_, dt); !reason.empty()) return reason;
+    sources_.book(dt);                                                            // (5.12), (7.5)
+    time_.end(cloud, energy_);                                                    // (8.42)
+    system_.hydrostatic().giveBack(cloud);                                        // (1.9)
+    if (const word reason = tooRough(time_, dt); !reason.empty()) return reason;  // (8.44)
 
-    c_.followOpen(system_.rows().viscous(), dt);
-    // shift with the present neighbours, then move
-    shift(shifting_, dt);
-    move(time_);
+    c_.followOpen(system_.rows().viscous(), dt);  // strips follow the fluid, theory 4.2
+    shift(shifting_, dt);                         // with the present neighbours, (8.30) to (8.36)
+    move(time_);                                  // (8.42) with u_b for F
     energy_.end();
-    if (const word reason = gains(dt); !reason.empty()) return reason;
+    if (const word reason = gains(dt); !reason.empty()) return reason;  // (8.40)
     energy_.book();
-    c_.walls->exchange(cloud, t + dt);
+    c_.walls->exchange(cloud, t + dt);  // theory 4.2
     return "";
 }
 

@@ -134,7 +134,7 @@ void fractionalStep::project(particleCloud& cloud, const stencil& s, const List<
     if (first_) startPressure(cloud);
     solvePressure(cloud, f_, cellSize, dt);
     correct(cloud, dt);
-    cloud.history[projected] = {dt};
+    cloud.state.set(entries::projectedStep, dt);
 }
 
 // No motion precedes the first step of a run: the p that this step leaves gets the rest of s

@@ -12,10 +12,10 @@
 //     shifting { ... }     densityFeedback 0;     solvers { p { ... } U { ... } }
 //
 #include "closedBodies.H"
-#include "densityFeedback.H"
+#include "fluidSources.H"
+#include "fractionalStep.H"
 #include "hydrostaticPart.H"
 #include "projectionLimits.H"
-#include "fractionalStep.H"
 #include "shiftingFrame.H"
 #include "solverPerformance.H"
 #include "stepReport.H"
@@ -28,11 +28,16 @@
 namespace ispf
 {
 
-namespace
+namespace entries
 {
 
-// Entry of cloud.history: slope of p along cyclic patches in the last step, absent if it is zero [Pa/m]
-const word slopeOfStep = "pressureSlope";
+// Slope of p along cyclic patches in the last step, absent if it is zero [Pa/m]
+const stateEntry<vector> pressureSlope{"pressureSlope"};
+
+}  // namespace entries
+
+namespace
+{
 
 struct projectionEntries
 {
@@ -66,9 +71,10 @@ public:
           step_(c.rho, c.mu, explicit_ ? "explicit" : "implicit", c.solution, time_.secondOrder()),
           shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c),
                     shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx)),
-          density_(c.solution, c.cloud),
           hydrostatic_(c)
     {
+        sources_.add(std::make_unique<zoneSource>(c));
+        sources_.add(std::make_unique<drainedSource>(c, step_.pair()));
         const auto refuse = [&](const word& key) {
             dict_.fail(key,
                        "With ddtScheme DLN, which is of second order, nothing is left for this "
@@ -90,10 +96,9 @@ private:
     void keep() override { limits_.keep(c_.cloud); }
 
     List<vec4> accelerations(const vector& slope, List<vec4>& spring) const;
-    List<scalar> sources() const;
-    void checkPushed(const List<label>& bodyOf) const;
-    vector slopeBehind() const;
+    void checkPushed() const;
     void addSlope(scalar sign, const vector& ofState);
+    void begin(scalar t, scalar dt);
     void solve(const stencil& s, scalar dt);
 
     dictionary dict_;
@@ -102,7 +107,7 @@ private:
     projectionLimits limits_;
     fractionalStep step_;
     particleShifting shifting_;
-    densityFeedback density_;
+    volumeSources sources_;
     hydrostaticPart hydrostatic_;
     vector slope_ = vector::Zero();  // of p along cyclic patches with a pressureDrop [Pa/m]
 };
@@ -133,17 +138,10 @@ List<vec4> projection::accelerations(const vector& slope, List<vec4>& spring) co
     return a;
 }
 
-List<scalar> projection::sources() const
+// Refuses walls that push into closed fluid.  solve() calls it without a structure only: an elastic wall gives way
+void projection::checkPushed() const
 {
-    List<scalar> q;
-    if (c_.source.empty()) return q;
-    for (label i = 0; i < c_.cloud.n(); ++i) q.push_back(c_.source[c_.cloud.zone[i]]);
-    return q;
-}
-
-// Refuses walls that push into closed fluid.  attempt() calls it without a structure only: an elastic wall gives way
-void projection::checkPushed(const List<label>& bodyOf) const
-{
+    const List<label> bodyOf = closedBodies(c_.cloud, c_.list);
     if (std::all_of(bodyOf.begin(), bodyOf.end(), [](label b) { return b < 0; })) return;
     const sweptRates pushed = c_.walls->swept(c_.cloud);
     for (label b = 0; b < label(bodyOf.size()); ++b)
@@ -153,12 +151,6 @@ void projection::checkPushed(const List<label>& bodyOf) const
             if (bodyOf[z] == b) zones.push_back(z);
         if (!zones.empty()) refusePush(c_, pushed, zones);
     }
-}
-
-vector projection::slopeBehind() const
-{
-    const auto found = c_.cloud.history.find(slopeOfStep);
-    return found == c_.cloud.history.end() ? vector(vector::Zero()) : vector(found->second.data());
 }
 
 // A pressure that falls from period to period acts as a body force; p less this slope is periodic.  Adds sign times the
@@ -175,48 +167,52 @@ void projection::addSlope(scalar sign, const vector& ofState)
             cloud.addToGhostPressure(g, part(g) - part(source));
 }
 
+// Solves for {u, v, w, p}, and books the energies and volumes of the step
 void projection::solve(const stencil& s, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
-    List<scalar> q = sources();
-    q.resize(cloud.n(), 0);
-    const List<label> closed = closedBodies(cloud, c_.list);
-    if (!c_.structure) checkPushed(closed);
-    hydrostatic_.take(cloud), addSlope(-1, slopeBehind());
-    step_.setup(cloud, s, *c_.kernel);
-    if (density_.on() && !c_.walls->hasCyclic())
-        density_.addTo(q, step_.pair(), drainedFluid(cloud, c_.list, closed), dt);
+    if (!c_.structure) checkPushed();
+    hydrostatic_.take(cloud);  // (1.9)
+    addSlope(-1, cloud.state.get(entries::pressureSlope, vector::Zero()));
+    step_.setup(cloud, s, *c_.kernel);                   // (6.4)
+    const List<scalar> q = sources_.sum(cloud.n(), dt);  // q of (6.2)
     List<vec4> spring;
-    c_.time.stages.in("velocity",
+    c_.time.stages.in("velocity",  // (6.1)
                       [&] { step_.predict(cloud, s, accelerations(slope_, spring), dt); });
-    c_.time.stages.in("pressure", [&] { step_.project(cloud, s, q, c_.kernel->support(), dt); });
-    energy_.weigh(time_.weight(), [&] {
+    c_.time.stages.in("pressure",  // (6.2), (6.3)
+                      [&] { step_.project(cloud, s, q, c_.kernel->support(), dt); });
+    energy_.weigh(time_.weight(), [&] {  // (6.10) to (6.12)
         step_.book(cloud, dt, energy_);
         energy_[energyLedger::forces] -= energy_.bookSprings(spring, dt);
     });
     step_.settle(cloud, c_.kernel->support(), dt);
     hydrostatic_.giveBack(cloud), addSlope(1, slope_);
-    if (slope_.isZero(0)) cloud.history.erase(slopeOfStep);
-    else cloud.history[slopeOfStep] = {slope_[0], slope_[1], slope_[2]};
+    if (slope_.isZero(0)) cloud.state.erase(entries::pressureSlope);
+    else cloud.state.set(entries::pressureSlope, slope_);
     step_.printContinuityErrors(cloud, q, dt);
-    density_.book(cloud, dt);
+    sources_.book(dt);
+}
+
+// Places of the forces, u_0 and the neighbours there
+void projection::begin(scalar t, scalar dt)
+{
+    particleCloud& cloud = c_.cloud;
+    time_.start(cloud, t, dt);
+    c_.time.stages.in("neighbours", [&] { c_.updateNeighbours(time_.times()); });
+    hydrostatic_.setStep(t, t + dt);
+    slope_ = c_.walls->pressureSlope();
+    energy_.begin(time_.startPlaces(cloud));
+    time_.begin(cloud);
 }
 
 word projection::attempt(scalar t, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
-    time_.start(cloud, t, dt);
-    c_.time.stages.in("neighbours",
-                      [&] { c_.updateNeighbours(time_.times(), fractionalStep::behind(cloud)); });
-    hydrostatic_.setStep(t, t + dt);
-    slope_ = c_.walls->pressureSlope();
-    energy_.begin(time_.startPlaces(cloud));
-    const stencil s{cloud, c_.list, c_.correction};
+    begin(t, dt);  // x_b and u_0 of (8.41)
     const word fails = atTime(t + dt, [&]() -> word {
         try
         {
-            time_.begin(cloud);
-            solve(s, time_.tau());
+            solve({cloud, c_.list, c_.correction}, time_.tau());  // (6.1) to (6.3)
             return "";
         }
         catch (const notConverged& e)
@@ -225,19 +221,19 @@ word projection::attempt(scalar t, scalar dt)
         }
     });
     if (!fails.empty()) return fails;
-    if (outletsDiffer(time_.tau())) return outletsAsk;
+    if (outletsDiffer(time_.tau())) return outletsAsk;  // (4.11)
     if (const word reason = tooFar(dt); !reason.empty()) return reason;
-    time_.end(cloud, energy_);
-    if (const word reason = tooRough(time_, dt, mean_); !reason.empty()) return reason;
-    c_.followOpen(step_.viscous(), dt);
-    // shift with the present neighbours, then move
-    shift(shifting_, dt);
-    move(time_, mean_);
+    time_.end(cloud, energy_);                                                           // (8.42)
+    if (const word reason = tooRough(time_, dt, mean_); !reason.empty()) return reason;  // (8.44)
+
+    c_.followOpen(step_.viscous(), dt);  // strips follow the fluid, theory 4.2
+    shift(shifting_, dt);                // with the present neighbours, (8.30) to (8.36)
+    move(time_, mean_);                  // (8.42) with u_b for F
     energy_.end();
-    if (const word reason = gains(dt); !reason.empty()) return reason;
+    if (const word reason = gains(dt); !reason.empty()) return reason;  // (8.40)
     energy_.book();
     c_.walls->keepVelocities(cloud);
-    c_.walls->exchange(cloud, t + dt);
+    c_.walls->exchange(cloud, t + dt);  // theory 4.2
     return "";
 }
 

@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "projectionLimits.H"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace ispf
 {
+
+namespace entries
+{
+
+// Stable step of the network [s], and the time index of its last renewal
+const stateEntry<std::array<scalar, 2>> stableStep{"stableStep"};
+
+}  // namespace entries
 
 namespace
 {
@@ -34,9 +43,14 @@ projectionLimits::projectionLimits(const fsiCase& c, bool explicitViscosity, boo
       force_(dict.getInRangeOrDefault("force", 1e-6, 1, 0.25)),
       viscousFactor_(dict.getInRangeOrDefault("viscous", 1e-6, 1, 0.125))
 {
-    const auto kept = c.cloud.history.find(history);
-    if (kept != c.cloud.history.end() && kept->second.size() == 2)
-        stableStep_ = kept->second[0], lastUpdate_ = kept->second[1];
+    if (const auto kept = c.cloud.state.find(entries::stableStep))
+        stableStep_ = (*kept)[0], lastUpdate_ = (*kept)[1];
+}
+
+void projectionLimits::keep(particleCloud& cloud) const
+{
+    if (std::isfinite(stableStep_))
+        cloud.state.set(entries::stableStep, {stableStep_, lastUpdate_});
 }
 
 scalar projectionLimits::viscous() const

@@ -9,8 +9,7 @@ namespace ispf
 
 int fluidZone(const particleCloud& cloud, label j)
 {
-    if (cloud.phase[j] == phaseType::rigid || cloud.phase[j] == phaseType::mirror) return -1;
-    return cloud.zone[cloud.ownerOf(j)];
+    return cloud.isMedium(j) ? cloud.zone[cloud.ownerOf(j)] : -1;
 }
 
 solidSides::solidSides(const particleCloud& cloud, const neighbourList& list,
@@ -23,13 +22,13 @@ solidSides::solidSides(const particleCloud& cloud, const neighbourList& list,
     owned_ = std::make_unique<imagedPoints>(x, 1.5 * cloud.dx, images);
 }
 
-// True if the wall's surface next to the nearest rigid particle lies before particle i
+// True if the wall's surface next to the wall's nearest particle lies before particle i
 bool solidSides::beyondWall(label i) const
 {
     scalar nearest = 1e30;
     bool beyond = false;
     forNeighbours<among::walls>(list_, i, [&](pairIndex, label j) {
-        if (cloud_.phase[j] != phaseType::rigid) return;
+        if (cloud_.ownerOf(j) >= 0) return;
         const vector way = cloud_.x[i].xyz() - cloud_.x[j].xyz();
         const vec4& d = cloud_.ghostDepth(j);
         if (way.norm() < nearest)
@@ -41,12 +40,9 @@ bool solidSides::beyondWall(label i) const
 // Fluid zone of neighbour j of solid particle i, or of the particle that j represents beyond a wall; -1: no fluid
 int solidSides::mirroredZone(label i, label j) const
 {
-    if (cloud_.phase[j] == phaseType::mirror)
-    {
-        const label source = cloud_.ownerOf(j);
-        return cloud_.isFluid(source) ? cloud_.zone[source] : -1;
-    }
-    if (cloud_.phase[j] != phaseType::rigid) return fluidZone(cloud_, j);
+    if (cloud_.isMedium(j)) return fluidZone(cloud_, j);
+    if (const label owner = cloud_.ownerOf(j); owner >= 0)
+        return cloud_.isFluid(owner) ? cloud_.zone[owner] : -1;
     const vec4& d = cloud_.ghostDepth(j);
     if (!(d[3] > 0) || !(d.xyz().dot(cloud_.x[i].xyz() - cloud_.x[j].xyz()) > d[3])) return -1;
     scalar nearest = 1e30;

@@ -26,7 +26,7 @@ boxCase channel(const word& coupling, scalar R)
 
 scalar flow(const fsiCase& c)
 {
-    return c.cloud.history.at("outlet right").at(0);
+    return c.cloud.state.values().at("outlet right").at(0);
 }
 
 // Largest p in the strip of the resistance; its slope is negligible

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stepSources.H"
+
+#include "sphc.H"
+#include "volumeLedger.H"
+
+#include <algorithm>
+
+namespace ispf
+{
+
+namespace
+{
+
+// Field of the particles: error of J that the rate of J has left in the last step
+const word missedField = "missedJ";
+
+// Time over which a solid still moves from its place in the equations.  With forces at x_b that is the middle of the step
+scalar wayOf(const timeScheme& time, scalar dt)
+{
+    return time.midway() ? 0 : dt;
+}
+
+}  // namespace
+
+void solidFeedback::addTo(List<scalar>& q, scalar dt)
+{
+    for (label i = 0; i < cloud_.nSolid(); ++i) q[i] += rate(i, dt);
+}
+
+void solidFeedback::book(scalar dt)
+{
+    scalar sum = 0;
+    for (label i = 0; i < cloud_.nSolid(); ++i) sum += rate(i, dt);
+    cloud_.state.add(entries::solidFeedback, sum * cloud_.volume() * dt);
+}
+
+solidDefect::solidDefect(particleCloud& cloud, const volumeConstraint& volume,
+                         const timeScheme& time, const List<scalar>& left, bool makesGood)
+    : cloud_(cloud), volume_(volume), time_(time), left_(left), makesGood_(makesGood)
+{
+    cloud.scalars[missedField].resize(cloud.n(), 0);
+}
+
+scalar solidDefect::rate(label i, scalar dt) const
+{
+    return makesGood_ ? -cloud_.scalars.at(missedField)[i] / dt : 0;
+}
+
+void solidDefect::addTo(List<scalar>& q, scalar dt)
+{
+    for (label i = 0; i < cloud_.nSolid(); ++i) q[i] += rate(i, dt);
+    ahead_.clear();
+    if (!time_.wellStarts()) return;
+    volume_.overStep(cloud_.Up, dt, ahead_);
+    for (label i = 0; i < cloud_.nSolid(); ++i) q[i] -= ahead_[i] / dt;
+}
+
+void solidDefect::book(scalar dt)
+{
+    scalar sum = 0;
+    for (label i = 0; i < cloud_.nSolid(); ++i) sum += rate(i, dt);
+    cloud_.state.add(entries::solidDefect, sum * cloud_.volume() * dt);
+    List<scalar> missed;
+    volume_.overStep(cloud_.Up, wayOf(time_, dt), missed);
+    for (size_t i = 0; i < ahead_.size(); ++i) missed[i] -= ahead_[i];
+    for (size_t i = 0; i < missed.size(); ++i) missed[i] += dt * left_[i];
+    std::copy(missed.begin(), missed.end(), cloud_.scalars.at(missedField).begin());
+}
+
+void firstWaySource::addTo(List<scalar>& q, scalar dt)
+{
+    if (!time_.wellStarts()) return;
+    particleCloud& cloud = c_.cloud;
+    cloud.fillGhosts(cloud.Up, false);
+    const List<scalar> loses = sphc::gradSquaredTrace({cloud, c_.list, c_.correction}, cloud.Up);
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+        if (!cloud.beyondOpen(i)) q[i] += dt * loses[i];
+}
+
+void enclosedDefect::book(scalar dt)
+{
+    List<scalar> dJ;
+    List<tensor> dF;
+    if (volume_) volume_->rate(cloud_.Up, dJ, dF);
+    enclosed_.account(cloud_, dt, dF, wayOf(time_, dt));
+}
+
+}  // namespace ispf
