@@ -177,7 +177,16 @@ demo: ## install what is missing, build, run the benchmark, draw it, compare wit
 bench: all ## what a step, a start, a write and memory cost on the whole HCC, beside STREAM and icoFoam: tests/benchmarks/results.csv
 	@bin/bench $(BENCH)
 
-benchPressure: all ## the pressure solvers on the demo's geometry, with the paper's scheme
+# The baseline of the pressure benchmark is built where its library is installed (bin/installDependencies bench)
+BASELINE := $(B)/benchmarks/pressureBaseline
+OBJ_baseline := $(B)/tests/benchmarks/pressureBaseline.o $(B)/tests/benchmarks/boomerAMG.o
+$(OBJ_baseline): INC = $(call quoted,$(LIBS)) -iquote tests/benchmarks -DOMPI_SKIP_MPICXX -isystem /usr/include/hypre $(shell pkg-config --cflags mpi-c)
+$(BASELINE): $(OBJ_baseline) $(call archives)
+	@mkdir -p $(@D); echo "LD   $@"
+	@$(CXX) $(FLAGS_$(OPT)) $^ -o $@ -lHYPRE $(shell pkg-config --libs mpi-c) $(LDLIBS)
+OBJECTS += $(OBJ_baseline)
+
+benchPressure: all $(if $(wildcard /usr/include/hypre/HYPRE.h),$(BASELINE)) ## the pressure solvers on the demo's geometry, with the paper's scheme, beside hypre's
 	@bin/benchPressure
 
 format: ## clang-format all sources in place

@@ -257,6 +257,27 @@ TEST_CASE("open ends become plane lids of the exact volume, in the order asked f
         CHECK((outlet.normal(t) - vector(0.6, 0, 0.8)).norm() < fit);
 }
 
+// Rims of teeth: seen along the axis, nodes lie above each other
+TEST_CASE("an end with teeth is capped")
+{
+    const int n = 24, rings = 50;
+    for (const int tooth : {1, 2, 3})
+        for (const vector& to : {vector(1, 2, 8), vector(4, 2, 7), vector(2.1, 3.7, 6.5)})
+        {
+            const vector from(1, 2, 3);
+            const triSurface whole = openTube(from, to, 1, n, rings);
+            triSurface s = whole.subset([&](label t) {
+                const label ring = t / (2 * n), side = t / 2 % n;
+                return ring + 1 < rings || side / tooth % 2 == 0;
+            });
+            capEnds(s, {}, 0.2, 0.1);
+            orientOutward(s);
+            CHECK_MESSAGE(checkClosed(s).closed(), checkClosed(s).describe());
+            const scalar polygon = 0.5 * n * std::sin(2 * M_PI / n), cut = 0.5 / rings;
+            CHECK(s.volume() == relative((1 - cut) * (to - from).norm() * polygon, 1e-4));
+        }
+}
+
 TEST_CASE("caps that cannot be are refused with the measure")
 {
     const triSurface tube = openTube({0, 0, 0}, {0, 0, 4}, 1, 24, 4);
