@@ -24,11 +24,6 @@ void boundary::setStep(const stepTimes& times)
     content_->setStep(times);
 }
 
-void boundary::keepVelocities(particleCloud& cloud) const
-{
-    content_->walls.keepVelocities(cloud);
-}
-
 void boundary::setStepBehind(scalar t0, scalar t1)
 {
     setStep(t0, t1);

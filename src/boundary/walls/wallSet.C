@@ -133,30 +133,6 @@ void wallSet::setStep(scalar t0, scalar t1)
     for (wall& w : walls_) w.setStep(t0, t1);
 }
 
-namespace entries
-{
-
-// u of the wall in the last step, then L unless the velocity is uniform
-static stateEntry<List<scalar>> velocityOf(const wall& w)
-{
-    return {"velocity." + w.name};
-}
-
-}  // namespace entries
-
-void wallSet::keepVelocities(particleCloud& cloud) const
-{
-    for (const wall& w : walls_)
-    {
-        cloud.state.erase(entries::velocityOf(w));
-        if (!w.motion.moves() && !w.motion.slides()) continue;
-        List<scalar> kept(w.velocity.u.begin(), w.velocity.u.end());
-        if (!w.velocity.uniform)
-            kept.insert(kept.end(), w.velocity.L.data(), w.velocity.L.data() + 9);
-        cloud.state.set(entries::velocityOf(w), kept);
-    }
-}
-
 scalar wallSet::perDepth(const patchSurface& s) const
 {
     if (nDims_ == 3) return 1;

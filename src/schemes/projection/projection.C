@@ -232,7 +232,6 @@ word projection::attempt(scalar t, scalar dt)
     energy_.end();
     if (const word reason = gains(dt); !reason.empty()) return reason;  // (8.40)
     energy_.book();
-    c_.walls->keepVelocities(cloud);
     c_.walls->exchange(cloud, t + dt);  // theory 4.2
     return "";
 }
