@@ -33,7 +33,7 @@ const home homes[] = {
     {"placement/|ispfDictionary", "", "none"},
     {"control/Time", "", "controlDict"},
     {"control/argList|fileFormats|cloudIO|siteFile|ispfPostProcess", "", "none"},
-    {".*", "args|file|patches|sum|volume_|in", "none"},
+    {".*", "args|file|patches|s\\.patches|.*cloud\\.state|sum|volume_|in", "none"},
     {"functionObjects/bodies/surfaceLeaks", "d", "boundary"},
     {"functionObjects/list/functionObjectList", "c.time.controlDict\\(\\)", "functions"},
     {"functionObjects", "", "functions"},

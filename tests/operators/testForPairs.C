@@ -98,7 +98,7 @@ TEST_CASE("each filter visits the neighbours that it names, in the order of the 
                                   [&](label i, label j) { return !s.isWall(j) && !s.isCut(i, j); });
 }
 
-TEST_CASE("sums go from left to right, from what they start with, and a search ends where it finds")
+TEST_CASE("even and odd terms are summed from left to right, and a search ends where it finds")
 {
     struct
     {
@@ -108,8 +108,9 @@ TEST_CASE("sums go from left to right, from what they start with, and a search e
     const List<scalar> part = {1, 1e16, -1e16, 0.25};
     const auto term = [&](pairIndex k, label) { return part[k]; };
     CHECK(sumNeighbours<among::all>(rows, 0, 3.0, term) == 3);
-    CHECK(sumNeighbours<among::all>(rows, 1, 1.0, term) == ((1.0 + 1 + 1e16) - 1e16) + 0.25);
+    CHECK(sumNeighbours<among::all>(rows, 1, 1.0, term) == (1.0 + 1 - 1e16) + (1e16 + 0.25));
     CHECK(sumNeighbours(rows, {1, 3}, 0.5, term) == (0.5 + 1e16) - 1e16);
+    CHECK(sumNeighbours(rows, {0, 3}, 0.5, term) == (0.5 + 1 + 1e16) - 1e16);
 
     List<label> visited;
     const auto isSix = [&](pairIndex, label j) {
