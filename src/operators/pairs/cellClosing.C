@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
 
 namespace ispf
 {
@@ -74,19 +72,22 @@ void cellClosing::gatherStrips()
         if (const label k = cloud_.stripOf(i); k > 0)
             strips_[k].members.push_back(i), inStrip_[i] = 1;
     const tensor free = cloud_.freeDirections();
+    List<label> place(cloud_.nAll(), -1);  // of a particle in the list of the present strip
     for (size_t k = 0; k < strips_.size(); ++k)
     {
         if (strips_[k].members.empty()) continue;
         strips_[k].half = vec4::from(free * cloud_.stripArea[k] / (2 * cloud_.volume()));
-        std::map<label, scalar> sums;
+        List<beside>& others = besideStrip_[k];
         for (const label i : strips_[k].members)
         {
             weight_[i] = 1 / float(strips_[k].members.size());
             forNeighbours(list_, within_.row(list_, i), [&](pairIndex at, label j) {
-                if (!inStrip_[cloud_.ownerOf(j)]) sums[j] -= list_.F[at];
+                if (inStrip_[cloud_.ownerOf(j)]) return;
+                if (place[j] < 0) place[j] = label(others.size()), others.push_back({j, 0});
+                others[place[j]].w -= list_.F[at];
             });
         }
-        for (const auto& [j, w] : sums) besideStrip_[k].push_back({j, w});
+        for (const beside& b : others) place[b.j] = -1;
     }
 }
 
@@ -154,6 +155,7 @@ struct cellClosing::search
     const label first, n;
     const tensor free;
     List<float4> r, q, p, d, ofBlock;
+    scalar rr = 0, rz = 0;
 
     search(const cellClosing& closing, const List<vec4>& residual)
         : c(closing),
@@ -176,7 +178,7 @@ struct cellClosing::search
         });
     }
 
-    // What symmetry planes leave of a strip's psi
+    // A strip has no psi in directions that symmetry planes turn
     float4 alongFree(const float4& f) const
     {
         return narrow(vec4::from(free * vec4{widen(f)}.xyz()).s);
@@ -188,8 +190,8 @@ struct cellClosing::search
         const float4 z = ofBlock[c.blocks_->of(i)] + r[i] / c.diagonal_[i];
         return c.inStrip_[i] ? alongFree(z) : z;
     }
-    // r.r and r.z
-    std::pair<scalar, scalar> products()
+    // Sets ofBlock, r.r and r.z for the present r
+    void precondition()
     {
         c.blocks_->solve(r, c.weight_, ofBlock);
         const List<scalar> sums = blockSums(n - first, 2, [&](label from, label to, scalar* of) {
@@ -200,7 +202,7 @@ struct cellClosing::search
                 of[1] += c.weight_[i] * dot(r[i], preconditioned(i));
             }
         });
-        return {sums[0], sums[1]};
+        rr = sums[0], rz = sums[1];
     }
     void fillGhosts()
     {
@@ -241,10 +243,9 @@ struct cellClosing::search
             return sum;
         });
     }
-    // Until r.r is at most `enough`.  Returns the number of iterations
+    // After precondition(), until r.r is at most `enough`.  Returns the number of iterations
     int run(scalar enough, int atMost)
     {
-        auto [rr, rz] = products();
         forMedium([&](label i) { p[i] = preconditioned(i); });
         int done = 0;
         for (; done < atMost && rr > enough && rz > 0; ++done)
@@ -255,7 +256,7 @@ struct cellClosing::search
             const float alpha = float(rz / pq);
             forMedium([&](label i) { d[i] += alpha * p[i], r[i] -= alpha * q[i]; });
             const scalar before = rz;
-            std::tie(rr, rz) = products();
+            precondition();
             const float beta = float(rz / before);
             forMedium([&](label i) { p[i] = preconditioned(i) + beta * p[i]; });
         }
@@ -281,17 +282,17 @@ bool cellClosing::improve(List<vec4>& r, List<vec4>& psi, scalar tolerance, int&
     removeMeans(r, false);
 
     search s(*this, r);
-    const scalar rr = s.products().first;
+    s.precondition();
     const scalar enough = safe * safe * nClosed_ * tolerance * tolerance;
-    const bool precise = rr * atOnce * atOnce <= enough;
-    iterations += s.run(precise ? enough : rr * atOnce * atOnce, most);
+    const scalar reached = s.rr * atOnce * atOnce;
+    iterations += s.run(std::max(enough, reached), most);
     // The last step leaves no residual sum over any block.  blockLaplacian is not exact for planes askew to the axes
     s.forMedium([&](label i) {
         simd4 way = widen(s.d[i]);
         if (active(i)) way += vec4::from(free * vec4{widen(s.ofBlock[blocks_->of(i)])}.xyz()).s;
         psi[i].s += cloud_.dx * way;
     });
-    return precise;
+    return reached <= enough;
 }
 
 }  // namespace ispf
