@@ -2,6 +2,7 @@
 #include "couplingScheme.H"
 
 #include "approachLimit.H"
+#include "deformation.H"
 #include "shiftingFrame.H"
 #include "stepReport.H"
 
@@ -19,8 +20,10 @@ constexpr int mostHalvings = 4, mostShortenings = 12;
 constexpr int mostAsked = 10;
 // Largest ratio of an adjusted step to the step before
 constexpr scalar fastestGrowth = 2;
-// Largest way of a particle in one step [dx]
-constexpr scalar farthest = 0.6;
+// A step is refused if a particle moves farther [dx] and a pair changes more than this
+constexpr scalar farthest = 0.6, mostDeformed = 0.6;
+// The next step aims at this way of a particle [h] or, if that gives a longer step, at this change of a pair
+constexpr scalar aimedWay = 0.4, aimedDeformation = 0.4;
 // Largest local error of a particle's way in one step [dx]; the share of it at which the next step aims
 constexpr scalar roughest = 0.2, aimedAt = 0.8;
 // Largest share of the energies at hand that a step may gain from nothing
@@ -36,6 +39,9 @@ namespace entries
 const stateEntry<scalar> wayError{"wayError"};
 // With adjustTimeStep: length of the last accepted step [s]
 const stateEntry<scalar> acceptedStep{"acceptedStep"};
+// With adjustTimeStep, of the last step: largest change of a pair over the largest way of a particle [1/m], and the largest
+// way of a particle beyond open faces over the largest way of all
+const stateEntry<std::array<scalar, 2>> deformation{"deformation"};
 
 }  // namespace entries
 
@@ -115,17 +121,47 @@ bool couplingScheme::outletsDiffer(scalar tau) const
     return c_.walls->hasOpen() && !c_.walls->outletsAgree(c_.cloud, c_.rho, tau);
 }
 
-word couplingScheme::tooFar(scalar dt) const
+word couplingScheme::tooFar(scalar dt)
 {
     const particleCloud& cloud = c_.cloud;
     const vector along = frame();
+    scalar most = 0, mostInStrip = 0;
     for (label i = 0; i < cloud.n(); ++i)
     {
         const scalar way = dt * (cloud.Up[i].xyz() - along).norm();
-        if (way < farthest * cloud.dx && std::isfinite(cloud.Up[i][3])) continue;
-        return cloud.describe(i) + " would move " + str(way / cloud.dx, 3) + " dx";
+        const bool beyond = cloud.beyondOpen(i);
+        if (!std::isfinite(way) || !std::isfinite(cloud.Up[i][3]) ||
+            (beyond && way > farthest * cloud.dx))
+            return cloud.describe(i) + " would move " + str(way / cloud.dx, 3) + " dx";
+        most = std::max(most, way);
+        if (beyond) mostInStrip = std::max(mostInStrip, way);
     }
+    const bool far = most > farthest * cloud.dx;
+    if (!far && !c_.time.adjustTimeStep()) return "";
+    const auto [rate, i, j] = fastestDeformation(cloud, c_.list);
+    if (far && !(dt * rate <= mostDeformed))
+        return cloud.describe(i) + " and " + (j < cloud.n() ? cloud.describe(j) : "an image") +
+               " would move against each other by " + str(dt * rate, 3) + " of their distance";
+    if (c_.time.adjustTimeStep() && most > 0)
+        c_.cloud.state.set(entries::deformation, {dt * rate / most, mostInStrip / most});
     return "";
+}
+
+couplingScheme::stepLimit couplingScheme::motionLimit() const
+{
+    scalar u = 0;
+    const vector along = frame();
+    for (label i = 0; i < c_.cloud.n(); ++i) u = std::max(u, (c_.cloud.Up[i].xyz() - along).norm());
+    const scalar given = c_.walls->maxGivenSpeed();
+    u = std::max(u, given);
+    if (!c_.time.adjustTimeStep() || u == 0) return {1e30, "no"};
+    const scalar way = aimedWay * c_.kernel->h();
+    const auto last = c_.cloud.state.find(entries::deformation);
+    if (!last || !((*last)[0] * way < aimedDeformation)) return {way / u, "CFL"};
+    const auto [change, stripShare] = *last;
+    const scalar dt = aimedDeformation / (change * u), own = std::max(given, stripShare * u);
+    if (own * dt > way) return {way / own, "CFL"};
+    return {dt, "deformation"};
 }
 
 word couplingScheme::tooRough(const timeScheme& time, scalar dt, bool mean)

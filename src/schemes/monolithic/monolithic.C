@@ -155,12 +155,10 @@ scalar monolithic::rounding(scalar dt, const List<scalar>& z) const
     return 16 * std::numeric_limits<scalar>::epsilon() * (x / dt + dt / (c_.rho * cloud.dx) * p);
 }
 
-// Stability sets no limit.  With adjustTimeStep the motion of the fluid sets one, for accuracy
+// Stability sets no limit.  With adjustTimeStep the motion sets one, for accuracy
 couplingScheme::stepLimit monolithic::admitted() const
 {
-    const scalar u = velocityScale();
-    if (!c_.time.adjustTimeStep() || u == 0) return {1e30, "no"};
-    return {0.4 * c_.kernel->h() / u, "CFL"};
+    return motionLimit();
 }
 
 void monolithic::structureState()
