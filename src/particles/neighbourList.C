@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "neighbourList.H"
+#include "forPairs.H"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,11 @@ namespace ispf
 
 namespace
 {
+
+scalar squareOf(const simd4& d)
+{
+    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+}
 
 // All points sorted by row-major search cell, in single precision relative to the lowest corner.  The
 // candidates of a particle are nine contiguous runs.
@@ -77,25 +83,23 @@ ISPF_HOT label closeOnes(const searchGrid& g, const float* q, label from, label 
 struct rowBuilder
 {
     const particleCloud& cloud;
-    const smoothingKernel& kernel;
     const searchGrid& grid;
     const neighbourList::visibility& visible;
     scalar reach;
 
     List<label> hit;
-    List<label> found[4];  // cut off, same phase, other phase, walls
-    List<scalar> r2[4], F;
+    List<label> found[4];     // cut off, same phase, other phase, walls
     const List<char>& given;  // 1 for fluid with a given velocity
 
-    rowBuilder(const particleCloud& c, const smoothingKernel& k, const searchGrid& g,
-               const neighbourList::visibility& v, const List<char>& isGiven)
-        : cloud(c), kernel(k), grid(g), visible(v), reach(k.support()), given(isGiven)
+    rowBuilder(const particleCloud& c, const searchGrid& g, const neighbourList::visibility& v,
+               scalar support, const List<char>& isGiven)
+        : cloud(c), grid(g), visible(v), reach(support), given(isGiven)
     {
     }
 
     void clear()
     {
-        for (int g = 0; g < 4; ++g) found[g].clear(), r2[g].clear();
+        for (int g = 0; g < 4; ++g) found[g].clear();
     }
 
     void row(label i)
@@ -121,8 +125,7 @@ struct rowBuilder
     void candidate(label i, label j)
     {
         if (j == i) return;
-        const simd4 d = cloud.x[i].s - cloud.x[j].s;
-        const scalar square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        const scalar square = squareOf(cloud.x[i].s - cloud.x[j].s);
         if (square >= reach * reach || (visible && !visible(i, j))) return;
         if (square == 0)
             throw fatalError("Particle " + std::to_string(cloud.id[i]) + " and " +
@@ -133,26 +136,21 @@ struct rowBuilder
         const int g = cloud.phase[j] != cloud.phase[i] ? (cloud.isMedium(j) ? 2 : 3)
                       : given[i] || given[j]           ? 0
                                                        : 1;
-        found[g].push_back(j), r2[g].push_back(square);
+        found[g].push_back(j);
     }
 
     void append(neighbourList& part)
     {
-        const auto add = [&](const List<label>& j, const List<scalar>& square) {
-            F.resize(j.size());
-            kernel.F(square.data(), F.data(), label(j.size()));
-            for (size_t k = 0; k < j.size(); ++k)
-                F[k] *= cloud.volume() * (j[k] < cloud.n() ? 1 : cloud.ghostVolume(j[k]));
+        const auto add = [&](const List<label>& j) {
             part.index.insert(part.index.end(), j.begin(), j.end());
-            part.F.insert(part.F.end(), F.begin(), F.end());
         };
-        add(found[0], r2[0]);
+        add(found[0]);
         part.own.push_back(part.nPairs());
-        add(found[1], r2[1]);
+        add(found[1]);
         part.mid.push_back(part.nPairs());
-        add(found[2], r2[2]);
+        add(found[2]);
         part.wall.push_back(part.nPairs());
-        add(found[3], r2[3]);
+        add(found[3]);
         part.start.push_back(part.nPairs());
     }
 };
@@ -178,7 +176,7 @@ void neighbourList::build(const particleCloud& cloud, const smoothingKernel& ker
     parallelFor(
         nBlocks,
         [&](label begin, label end) {
-            rowBuilder rows(cloud, kernel, grid, visible, given);
+            rowBuilder rows(cloud, grid, visible, kernel.support(), given);
             for (label b = begin; b < end; ++b)
                 for (label i = b * blockRows; i < std::min(n, (b + 1) * blockRows); ++i)
                 {
@@ -191,15 +189,14 @@ void neighbourList::build(const particleCloud& cloud, const smoothingKernel& ker
 
     List<std::int64_t> offset(nBlocks + 1, 0);
     for (label b = 0; b < nBlocks; ++b) offset[b + 1] = offset[b] + part[b].nPairs();
-    index.resize(offset[nBlocks]), F.resize(offset[nBlocks]);
+    index.resize(offset[nBlocks]);
     parallelFor(
         nBlocks,
         [&](label begin, label end) {
             for (label b = begin; b < end; ++b)
             {
-                const neighbourList& p = part[b];
+                const neighbourList p = std::move(part[b]);
                 std::copy(p.index.begin(), p.index.end(), index.begin() + offset[b]);
-                std::copy(p.F.begin(), p.F.end(), F.begin() + offset[b]);
                 for (size_t r = 0; r < p.mid.size(); ++r)
                 {
                     own[b * blockRows + r] = offset[b] + p.own[r];
@@ -210,6 +207,30 @@ void neighbourList::build(const particleCloud& cloud, const smoothingKernel& ker
             }
         },
         1);
+    weigh(cloud, kernel);
+}
+
+// Sets F of all pairs
+void neighbourList::weigh(const particleCloud& cloud, const smoothingKernel& kernel)
+{
+    F.resize(index.size());
+    parallelFor(cloud.n(), [&](label begin, label end) {
+        List<scalar> r2;
+        for (label i = begin; i < end; ++i)
+        {
+            const pairIndex first = start[i];
+            const label nPairs = label(start[i + 1] - first);
+            r2.resize(nPairs);
+            forNeighbours<among::all>(*this, i, [&](pairIndex k, label j) {
+                r2[k - first] = squareOf(cloud.x[i].s - cloud.x[j].s);
+            });
+            kernel.F(r2.data(), F.data() + first, nPairs);
+            forNeighbours<among::all>(*this, i, [&](pairIndex k, label j) {
+                F[k] *= cloud.volume() * (j < cloud.n() ? 1 : cloud.ghostVolume(j));
+            });
+        }
+    });
+    countPairs(nPairs(), sizeof(label) + 2 * sizeof(scalar));
 }
 
 }  // namespace ispf

@@ -31,10 +31,14 @@ check() { # name of the run
     # the times of all stages and function objects add up to the run
     sed -n '/^Stages of the run/,/^$/p' log > table
     for stage in start neighbours "rest of the steps" "function object speed"; do
-        grep -qE "^    $stage +[0-9.]+ s +[0-9.]+ %$" table || fail "$1: no time of $stage: $(cat table)"
+        grep -qE "^    $stage +[0-9.]+ s +[0-9.]+ % +[-0-9.]+ +[-0-9]+ +[-0-9.]+ +-$" table ||
+            fail "$1: no time of $stage: $(cat table)"
     done
-    awk '/^    / && !/together/ { s += $(NF - 3); share += $(NF - 1) } /together/ { whole = $(NF - 3) }
-        END { exit !((s - whole)^2 < 0.1^2 && (share - 100)^2 < 1) }' table || fail "$1: what does not add up: $(cat table)"
+    grep -qE "^    operators .* % +[0-9.]+ +[0-9]+ +[0-9.]+ +-$" table || fail "$1: no work of the operators: $(cat table)"
+    awk '/^    / && !/together/ { s += $(NF - 7); share += $(NF - 5); pairs += $(NF - 3); iterations += $(NF - 2) }
+        /together/ { whole = $(NF - 7); allPairs = $(NF - 3); allIterations = $(NF - 2) }
+        END { exit !((s - whole)^2 < 0.1^2 && (share - 100)^2 < 1 && iterations == allIterations &&
+                     (pairs - allPairs)^2 < (0.01*allPairs)^2) }' table || fail "$1: what does not add up: $(cat table)"
 }
 for case in "piston projection" "piston monolithic" "membrane monolithic"; do
     read -r template coupling <<< "$case"

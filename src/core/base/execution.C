@@ -2,6 +2,9 @@
 #include "execution.H"
 
 #include <omp.h>
+#include <unistd.h>
+#include <chrono>
+#include <cmath>
 #include <exception>
 
 namespace ispf
@@ -51,6 +54,34 @@ void execution::forRanges(label n, label grain, rangeBody body, const void* cont
     }
     for (const std::exception_ptr& e : thrown)
         if (e) std::rethrow_exception(e);
+}
+
+workCount& workDone()
+{
+    static workCount done;
+    return done;
+}
+
+scalar triadRate()
+{
+    const label n = std::max<label>(1 << 22, label(2 * sysconf(_SC_LEVEL3_CACHE_SIZE) / 24));
+    const std::unique_ptr<scalar[]> a(new scalar[n]), b(new scalar[n]), c(new scalar[n]);
+    const auto triad = [&](label begin, label end) {
+        for (label i = begin; i < end; ++i) a[i] = b[i] + 3 * c[i];
+    };
+    // each thread is the first to touch its part
+    parallelFor(n, [&](label begin, label end) {
+        for (label i = begin; i < end; ++i) a[i] = 0, b[i] = 1, c[i] = 2;
+    });
+    scalar best = std::numeric_limits<scalar>::max();
+    for (int k = 0; k < 5; ++k)
+    {
+        const auto start = std::chrono::steady_clock::now();
+        parallelFor(n, triad);
+        const std::chrono::duration<scalar> took = std::chrono::steady_clock::now() - start;
+        best = std::min(best, took.count());
+    }
+    return 3 * sizeof(scalar) * scalar(n) / best;
 }
 
 int nThreads()

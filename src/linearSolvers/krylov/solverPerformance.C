@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solverPerformance.H"
+#include "execution.H"
 
 #include <algorithm>
 #include <cmath>
@@ -60,6 +61,7 @@ convergence::convergence(const solverControls& controls, const word& solver, con
 
 bool convergence::stop(label n, scalar residualNorm)
 {
+    countIterations(n - result_.nIterations);
     result_.nIterations = n;
     result_.finalResidual = residualNorm / result_.normFactor;
     if (!std::isfinite(residualNorm))

@@ -33,6 +33,7 @@ ISPF_HOT void productRange(const blockMatrix3& A, label begin, label end, const 
 void blockMatrix3::apply(const List<vec4>& x, List<vec4>& y) const
 {
     parallelFor(size(), [&](label i, label e) { productRange(*this, i, e, x.data(), y.data()); });
+    countPairs(label(value.size()), sizeof(std::int32_t) + sizeof(tensor));
 }
 
 }  // namespace ispf

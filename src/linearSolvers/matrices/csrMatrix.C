@@ -45,6 +45,7 @@ void csrMatrix::apply(const List<scalar>& x, List<scalar>& y) const
     const rows A = rowsOf(*this);
     parallelFor(size(),
                 [&](label begin, label end) { productRange(A, begin, end, x.data(), y.data()); });
+    countPairs(label(value.size()), sizeof(std::int32_t) + sizeof(scalar));
 }
 
 void csrMatrix::check() const

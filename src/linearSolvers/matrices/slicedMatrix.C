@@ -122,6 +122,7 @@ void slicedMatrix::multiply(const List<float>& x, List<float>& y) const
     parallelFor(
         padded(n_) / width, [&](label s, label e) { multiplySlices(A, s, e, x.data(), y.data()); },
         levelGrain / width);
+    countPairs(std::int64_t(value_.size()), sizeof(std::int32_t) + sizeof(float));
 }
 
 void slicedMatrix::residual(const List<float>& b, const List<float>& x, List<float>& r) const
@@ -131,6 +132,7 @@ void slicedMatrix::residual(const List<float>& b, const List<float>& x, List<flo
         padded(n_) / width,
         [&](label s, label e) { residualSlices(A, s, e, b.data(), x.data(), r.data()); },
         levelGrain / width);
+    countPairs(std::int64_t(value_.size()), sizeof(std::int32_t) + sizeof(float));
 }
 
 void slicedMatrix::smooth(const List<float>& relax, const List<float>& b, const List<float>& x,
@@ -143,6 +145,7 @@ void slicedMatrix::smooth(const List<float>& relax, const List<float>& b, const 
             smoothSlices(A, s, e, relax.data(), b.data(), x.data(), y.data());
         },
         levelGrain / width);
+    countPairs(std::int64_t(value_.size()), sizeof(std::int32_t) + sizeof(float));
 }
 
 }  // namespace ispf

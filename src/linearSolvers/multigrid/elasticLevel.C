@@ -235,6 +235,7 @@ void elasticLevel<B>::residual(const rawList<blockEntry<B>>& b, const rawList<bl
             residualRange(*this, begin, end, b.data(), x.data(), r.data());
         },
         256);
+    countPairs(label(A.value.size()), sizeof(std::int32_t) + sizeof(block<B, B>));
 }
 
 // Chebyshev's iteration on [lowerEnd, 1] times the largest eigenvalue, two steps: the same polynomial before and after the

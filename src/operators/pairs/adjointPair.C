@@ -26,9 +26,9 @@ struct view
     // a_ij of entry k.  Components from nDims on are those of the next entry
     ISPF_INLINE simd4 face(std::int64_t k) const
     {
-        simd4 a;
+        float4 a;
         std::memcpy(&a, faces.a.data() + faces.nDims * k, sizeof a);
-        return a;
+        return __builtin_convertvector(a, simd4);
     }
     simd4 inSpace() const { return simd4{1, 1, faces.nDims == 3 ? 1.0 : 0.0, 0}; }
 };
@@ -308,6 +308,8 @@ void adjointPair::gradient(const List<vec4>& phi, List<vec4>& gp) const
                 gp[i].s += vec4::from(linearB_[linearRow_[i]] * vector(s[0], s[1], s[2])).s;
             }
     });
+    countPairs(list_->nPairs() - list_->start[first],
+               label(sizeof(label)) + faces_.nDims * label(sizeof(float)));
 }
 
 void adjointPair::divergence(const List<vec4>& u, List<scalar>& div) const
@@ -335,6 +337,8 @@ void adjointPair::divergence(const List<vec4>& u, List<scalar>& div) const
         for (label i = begin; i < end; ++i)
             if (besideWall_[i]) div[i] += wallPart(v, h_.data(), i);
     });
+    countPairs(list_->nPairs() - list_->start[first],
+               label(sizeof(label)) + faces_.nDims * label(sizeof(float)));
 }
 
 void adjointPair::remainder(const List<vec4>& g, List<vec4>& m, List<scalar>& direct) const
@@ -345,6 +349,7 @@ void adjointPair::remainder(const List<vec4>& g, List<vec4>& m, List<scalar>& di
         begin += first, end += first;
         remainderRange(v, g.data(), begin, end, m.data(), direct.data());
     });
+    countPairs(list_->nPairs() - list_->start[first], label(sizeof(label)) + label(sizeof(scalar)));
 }
 
 List<scalar> adjointPair::stiffness() const

@@ -13,19 +13,33 @@ blockLaplacian::blockLaplacian(const graph& g, const List<scalar>& holds) : g_(g
 {
     findBlocks();
     const label first = g_.within.first, end = g_.cloud.n();
-    const int nMatrices = g_.cloud.freeDirections().isIdentity(1e-9) ? 1 : 3;
+    const tensor free = g_.cloud.freeDirections();
+    const int nMatrices = free.isIdentity(1e-9) ? 1 : 3;
     List<Eigen::MatrixXd> A(nMatrices, Eigen::MatrixXd::Zero(n_, n_));
-    const auto ofPart = [&](label from, label to) {
-        return pairs(first + from, first + to, nMatrices);
-    };
-    for (const List<entry>& part : parallelParts(end - first, ofPart))
-        for (const entry& e : part) A[e.component](e.row, e.column) += e.value;
-    for (Eigen::MatrixXd& ofComponent : A)
-    {
-        for (label i = first; i < end; ++i)
-            if (const label b = block_[i]; b >= 0) ofComponent(b, b) += holds[i];
-        factors_.emplace_back(ofComponent);
-    }
+    List<label> start(n_ + 1, 0), members(end - first);  // particles of each block
+    for (label i = first; i < end; ++i)
+        if (block_[i] >= 0) ++start[block_[i] + 1];
+    for (label b = 0; b < n_; ++b) start[b + 1] += start[b];
+    List<label> next(start.begin(), start.end() - 1);
+    for (label i = first; i < end; ++i)
+        if (block_[i] >= 0) members[next[block_[i]]++] = i;
+    parallelFor(
+        n_,
+        [&](label from, label to) {
+            List<Eigen::VectorXd> row(nMatrices);
+            for (label b = from; b < to; ++b)
+            {
+                for (Eigen::VectorXd& r : row) r = Eigen::VectorXd::Zero(n_);
+                for (label m = start[b]; m < start[b + 1]; ++m)
+                {
+                    addPairs(members[m], free, row);
+                    for (Eigen::VectorXd& r : row) r[b] += holds[members[m]];
+                }
+                for (int d = 0; d < nMatrices; ++d) A[d].row(b) = row[d];
+            }
+        },
+        1);
+    for (const Eigen::MatrixXd& ofComponent : A) factors_.emplace_back(ofComponent);
 }
 
 // Blocks are cubes with the particles of one body
@@ -52,34 +66,26 @@ void blockLaplacian::findBlocks()
     n_ = label(known.size());
 }
 
-// The matrix entries of w_ij |psi_i - R psi_j|^2 for each pair.  R is the turn of the image j, 1 for a particle.  A strip
-// has no psi in directions that symmetry planes turn
-List<blockLaplacian::entry> blockLaplacian::pairs(label from, label to, label nMatrices) const
+// Adds the entries of w_ij |psi_i - R psi_j|^2 in the row of i's block, for each pair of i and each component.  R is the turn
+// of the image j, 1 for a particle.  free: particleCloud::freeDirections.  A strip has no psi in directions that symmetry planes turn
+void blockLaplacian::addPairs(label i, const tensor& free, List<Eigen::VectorXd>& row) const
 {
     const particleCloud& cloud = g_.cloud;
-    const tensor free = cloud.freeDirections();
-    List<entry> entries;
-    for (label i = from; i < to; ++i)
-    {
-        const label own = block_[i];
-        if (own < 0) continue;
-        forNeighbours(g_.list, g_.within.row(g_.list, i), [&](pairIndex k, label j) {
-            const label owner = cloud.ownerOf(j), other = block_[owner];
-            // within a block psi is the same: no term
-            if ((other == own && j < cloud.n()) || (g_.inStrip[i] && g_.inStrip[owner])) return;
-            const scalar w = -g_.list.F[k];
-            for (label d = 0; d < nMatrices; ++d)
-            {
-                const bool turns = free(d, d) < 0.5;
-                if (g_.inStrip[i] && turns) continue;
-                entries.push_back({own, own, d, w});
-                if (other < 0 || (g_.inStrip[owner] && turns)) continue;
-                const scalar turned = j < cloud.n() ? 1 : cloud.ruleOf(j).R(d, d);
-                entries.push_back({own, other, d, -w * turned});
-            }
-        });
-    }
-    return entries;
+    const label own = block_[i];
+    forNeighbours(g_.list, g_.within.row(g_.list, i), [&](pairIndex k, label j) {
+        const label owner = cloud.ownerOf(j), other = block_[owner];
+        // within a block psi is the same: no term
+        if ((other == own && j < cloud.n()) || (g_.inStrip[i] && g_.inStrip[owner])) return;
+        const scalar w = -g_.list.F[k];
+        for (label d = 0; d < label(row.size()); ++d)
+        {
+            const bool turns = free(d, d) < 0.5;
+            if (g_.inStrip[i] && turns) continue;
+            row[d][own] += w;
+            if (other < 0 || (g_.inStrip[owner] && turns)) continue;
+            row[d][other] -= w * (j < cloud.n() ? 1 : cloud.ruleOf(j).R(d, d));
+        }
+    });
 }
 
 void blockLaplacian::solve(const List<float4>& r, const List<float>& weight, List<float4>& z) const

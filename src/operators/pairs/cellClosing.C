@@ -229,6 +229,7 @@ struct cellClosing::search
             for (const beside& b : c.besideStrip_[k]) sum += square * b.w * widen(own - p[b.j]);
             ofStrip[k] = alongFree(narrow(sum));
         }
+        countPairs(c.list_.nPairs() - c.list_.start[first], sizeof(label) + sizeof(scalar));
         return parallelSum(n - first, [&](label from, label to) {
             graphRange(c.list_, c.within_.end->data(), float(square), p.data(), first + from,
                        first + to, q.data());
@@ -260,6 +261,7 @@ struct cellClosing::search
             const float beta = float(rz / before);
             forMedium([&](label i) { p[i] = preconditioned(i) + beta * p[i]; });
         }
+        countIterations(done);
         return done;
     }
 };

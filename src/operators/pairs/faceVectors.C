@@ -106,16 +106,17 @@ ISPF_HOT void sizeRange(const view& v, label begin, label end, scalar* size)
 }
 
 // Writes a_ij to `a` and sum_j a_ij + b_i to `left`
-ISPF_HOT void writeRange(const view& v, const vec4* b, int nDims, label begin, label end, scalar* a,
+ISPF_HOT void writeRange(const view& v, const vec4* b, int nDims, label begin, label end, float* a,
                          vec4* left)
 {
     for (label i = begin; i < end; ++i)
     {
         simd4 sum = b[i].s * inSpace;
         forNeighbours(v, v.row(i), [&](pairIndex k, label j) {
-            const simd4 face = -v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j));
-            sum += face;
-            scalar* kept = a + nDims * k;
+            const float4 face = __builtin_convertvector(
+                -v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j)), float4);
+            sum += __builtin_convertvector(face, simd4);
+            float* kept = a + nDims * k;
             kept[0] = face[0], kept[1] = face[1];
             if (nDims == 3) kept[2] = face[2];
         });
@@ -193,6 +194,7 @@ public:
         const tensor one = vector(1, 1, cloud_.nDims == 2 ? 0 : 1).asDiagonal();
         List<columns> moment(cloud_.n());
         forRanges([&](label i, label end) { momentRange(sight(), i, end, moment.data()); });
+        count();
         forMedium([&](label i) {
             if (poor_[i] || cloud_.stripOf(i) > 0) return;
             const columns change =
@@ -232,6 +234,7 @@ public:
         List<vec4> r(cloud_.n());
         const view v = sight();
         forRanges([&](label i, label end) { openRange(v, b.data(), i, end, r.data()); });
+        count();
         forMedium([&](label i) { r[i].s *= -inSpace; });
         for (const cellClosing::strip& s : closing_->strips())
         {
@@ -252,6 +255,7 @@ public:
         const label n = cloud_.n();
         List<scalar> share(cloud_.nAll(), 1);
         forRanges([&](label i, label end) { sizeRange(sight(), i, end, share.data()); });
+        count();
         forMedium([&](label i) {
             const bool maybe = share[i] > mostFace;
             share[i] = 1;
@@ -285,6 +289,7 @@ public:
         forRanges([&](label i, label end) {
             writeRange(sight(), b.data(), faces.nDims, i, end, faces.a.data(), c.data());
         });
+        count(faces.nDims * label(sizeof(float)));
         label nClosed = 0;
         scalar squares = 0;
         for (label i = within_.first; i < cloud_.n(); ++i)
@@ -304,6 +309,12 @@ private:
                 cloud_.x.data(),    B_.data(),           psi_.data(),        share_.data()};
     }
 
+    // A loop over the pairs that reads F, and writes some bytes per pair
+    void count(label written = 0) const
+    {
+        countPairs(list_.nPairs() - list_.start[within_.first],
+                   label(sizeof(label) + sizeof(scalar)) + written);
+    }
     template <class Body>
     void forRanges(Body&& body) const
     {

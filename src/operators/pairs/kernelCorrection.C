@@ -49,6 +49,7 @@ void kernelCorrection::build(const particleCloud& cloud, const neighbourList& li
             all[i] = boundedInverse(m, leastEigenvalue, poorAll[i]);
         }
     });
+    countPairs(list.nPairs(), sizeof(label) + sizeof(scalar));
     nPoorAll = nPoorSame = 0;
     for (label i = 0; i < n; ++i) nPoorAll += poorAll[i], nPoorSame += poorSame[i];
 }

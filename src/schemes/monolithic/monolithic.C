@@ -206,9 +206,11 @@ void monolithic::accept(const List<scalar>& z)
 // Coefficients of (7.1) and (7.2) for the present neighbours
 void monolithic::assemble()
 {
-    if (c_.structure) system_.setup(time_.tau(), volume_.get(), &surface_, &elastic_.tangent());
-    else system_.setup(time_.tau(), nullptr, nullptr, nullptr);
-    preconditioner_.setup();
+    c_.time.stages.in("operators", [&] {
+        if (c_.structure) system_.setup(time_.tau(), volume_.get(), &surface_, &elastic_.tangent());
+        else system_.setup(time_.tau(), nullptr, nullptr, nullptr);
+    });
+    c_.time.stages.in("preconditioner", [&] { preconditioner_.setup(); });
 }
 
 // Solves (7.7) and (7.2) for z = {u, v, w, p}.  Returns an empty text or the reason why the step cannot be accepted

@@ -42,14 +42,14 @@ void monolithicPreconditioner::setup()
                      c.kernel->support());
 
     chooseSweeps();
-    buildLaplacian();
+    const csrMatrix L = laplacian();
     List<vector> position(cloud.n());
     List<std::uint8_t> group(cloud.n());
     for (label i = 0; i < cloud.n(); ++i)
         position[i] = cloud.x[i].xyz(), group[i] = std::uint8_t(cloud.phase[i]);
     options_.cellSize = c.kernel->support();
-    if (multigrid_) multigrid_->rebuild(L_, position, group);
-    else multigrid_ = std::make_unique<cellMultigrid>(L_, position, options_, group);
+    if (multigrid_) multigrid_->rebuild(L, position, group);
+    else multigrid_ = std::make_unique<cellMultigrid>(L, position, options_, group);
 }
 
 // Eigenvalues of A_ii^-1 A lie in [least, 2 - least] in the fluid, by Gershgorin's circles.  After m sweeps Chebyshev's
@@ -66,7 +66,7 @@ void monolithicPreconditioner::chooseSweeps()
     sweeps_ = label(std::ceil(std::acosh(1 / leaves) / std::acosh(1 / reach)));
 }
 
-void monolithicPreconditioner::buildLaplacian()
+csrMatrix monolithicPreconditioner::laplacian() const
 {
     const fsiCase& c = system_.fsi();
     const particleCloud& cloud = c.cloud;
@@ -92,24 +92,26 @@ void monolithicPreconditioner::buildLaplacian()
         });
         return d;
     };
-    L_.rowStart.assign(n + 1, 0), L_.diagonal.resize(n);
+    csrMatrix L;
+    L.rowStart.assign(n + 1, 0), L.diagonal.resize(n);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
-            L_.diagonal[i] = row(i, [&](label, scalar) { ++L_.rowStart[i + 1]; });
+            L.diagonal[i] = row(i, [&](label, scalar) { ++L.rowStart[i + 1]; });
     });
-    for (label i = 0; i < n; ++i) L_.rowStart[i + 1] += L_.rowStart[i];
-    L_.column.resize(L_.rowStart[n]), L_.value.resize(L_.rowStart[n]);
+    for (label i = 0; i < n; ++i) L.rowStart[i + 1] += L.rowStart[i];
+    L.column.resize(L.rowStart[n]), L.value.resize(L.rowStart[n]);
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
-            label k = L_.rowStart[i];
-            row(i, [&](label j, scalar a) { L_.column[k] = j, L_.value[k++] = a; });
+            label k = L.rowStart[i];
+            row(i, [&](label j, scalar a) { L.column[k] = j, L.value[k++] = a; });
         }
     });
     // rows without neighbours and rows of given pressure: any positive diagonal of the right size
-    const scalar largest = *std::max_element(L_.diagonal.begin(), L_.diagonal.end());
-    for (scalar& d : L_.diagonal)
+    const scalar largest = *std::max_element(L.diagonal.begin(), L.diagonal.end());
+    for (scalar& d : L.diagonal)
         if (!(d > 0)) d = largest;
+    return L;
 }
 
 // u = A^-1 f for f/A_ii in u

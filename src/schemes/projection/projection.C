@@ -174,8 +174,8 @@ void projection::solve(const stencil& s, scalar dt)
     if (!c_.structure) checkPushed();
     hydrostatic_.take(cloud);  // (1.9)
     addSlope(-1, cloud.state.get(entries::pressureSlope, vector::Zero()));
-    step_.setup(cloud, s, *c_.kernel);                   // (6.4)
-    const List<scalar> q = sources_.sum(cloud.n(), dt);  // q of (6.2)
+    c_.time.stages.in("operators", [&] { step_.setup(cloud, s, *c_.kernel); });  // (6.4)
+    const List<scalar> q = sources_.sum(cloud.n(), dt);                          // q of (6.2)
     List<vec4> spring;
     c_.time.stages.in("velocity",  // (6.1)
                       [&] { step_.predict(cloud, s, accelerations(slope_, spring), dt); });
