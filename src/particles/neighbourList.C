@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "neighbourList.H"
 #include "forPairs.H"
+#include "rawList.H"
 
 #include <algorithm>
 #include <cmath>
@@ -189,7 +190,7 @@ void neighbourList::build(const particleCloud& cloud, const smoothingKernel& ker
 
     List<std::int64_t> offset(nBlocks + 1, 0);
     for (label b = 0; b < nBlocks; ++b) offset[b + 1] = offset[b] + part[b].nPairs();
-    index.resize(offset[nBlocks]);
+    remake(index, offset[nBlocks]);
     parallelFor(
         nBlocks,
         [&](label begin, label end) {
@@ -213,7 +214,7 @@ void neighbourList::build(const particleCloud& cloud, const smoothingKernel& ker
 // Sets F of all pairs
 void neighbourList::weigh(const particleCloud& cloud, const smoothingKernel& kernel)
 {
-    F.resize(index.size());
+    remake(F, index.size());
     parallelFor(cloud.n(), [&](label begin, label end) {
         List<scalar> r2;
         for (label i = begin; i < end; ++i)

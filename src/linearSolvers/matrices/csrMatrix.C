@@ -48,6 +48,13 @@ void csrMatrix::apply(const List<scalar>& x, List<scalar>& y) const
     countPairs(label(value.size()), sizeof(std::int32_t) + sizeof(scalar));
 }
 
+label csrMatrix::row(label i, std::int32_t* columns, scalar* values) const
+{
+    std::copy(column.begin() + rowStart[i], column.begin() + rowStart[i + 1], columns);
+    std::copy(value.begin() + rowStart[i], value.begin() + rowStart[i + 1], values);
+    return most(i);
+}
+
 void csrMatrix::check() const
 {
     const label n = size();

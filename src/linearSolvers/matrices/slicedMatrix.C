@@ -68,46 +68,44 @@ ISPF_HOT void smoothSlices(const slices& A, label s, label end, const float* rel
 
 }  // namespace
 
-template <class Real>
-List<scalar> slicedMatrix::assign(label n, const label* rowStart, const std::int32_t* column,
-                                  const Real* value, scalar factor)
+List<scalar> slicedMatrix::assign(const matrixRows& rows, scalar factor)
 {
+    const label n = rows.size(), nSlices = padded(n) / width;
     n_ = n;
     diagonal_.assign(padded(n), 0);
-    const label nSlices = padded(n) / width;
     start_.assign(nSlices + 1, 0);
+    label longest = 0;
     for (label i = 0; i < n; ++i)
-        start_[i / width + 1] = std::max(start_[i / width + 1], rowStart[i + 1] - rowStart[i]);
+    {
+        label& length = start_[i / width + 1];
+        length = std::max(length, rows.most(i)), longest = std::max(longest, length);
+    }
     for (label s = 0; s < nSlices; ++s) start_[s + 1] += start_[s];
-    column_.resize(size_t(start_[nSlices]) * width);
-    value_.resize(column_.size());
+    remake(column_, size_t(start_[nSlices]) * width), remake(value_, column_.size());
     List<scalar> offSum(padded(n), 0);
-    const auto fillRow = [&](label i) {
-        size_t at = entry(i);
-        const size_t end = at + rowSpan(i);
-        if (i < n)
-            for (label k = rowStart[i]; k < rowStart[i + 1]; ++k, at += width)
-            {
-                column_[at] = column[k];
-                value_[at] = float(factor * value[k]);
-                offSum[i] += value[k];
-            }
-        for (; at < end; at += width) column_[at] = std::min(i, n - 1), value_[at] = 0;
-    };
     parallelFor(
         nSlices,
         [&](label s, label e) {
-            for (label i = s * width; i < e * width; ++i) fillRow(i);
+            List<std::int32_t> column(longest);
+            List<scalar> value(longest);
+            for (label i = s * width; i < e * width; ++i)
+            {
+                const label length = i < n ? rows.row(i, column.data(), value.data()) : 0;
+                size_t at = entry(i);
+                const size_t end = at + rowSpan(i);
+                for (label k = 0; k < length; ++k, at += width)
+                {
+                    column_[at] = column[k];
+                    value_[at] = float(factor * value[k]);
+                    offSum[i] += value[k];
+                }
+                for (; at < end; at += width) column_[at] = std::min(i, n - 1), value_[at] = 0;
+            }
         },
         levelGrain / width);
     offSum.resize(n);
     return offSum;
 }
-
-template List<scalar> slicedMatrix::assign(label, const label*, const std::int32_t*, const float*,
-                                           scalar);
-template List<scalar> slicedMatrix::assign(label, const label*, const std::int32_t*, const scalar*,
-                                           scalar);
 
 bool slicedMatrix::hasEntries(label i) const
 {

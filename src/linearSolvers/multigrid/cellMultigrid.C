@@ -82,7 +82,7 @@ void multigridOptions::read(const dictionary& dict)
     coarsestSize = dict.getInRangeOrDefault<label>("coarsestSize", 1, 5000, coarsestSize);
 }
 
-cellMultigrid::cellMultigrid(const csrMatrix& A, const List<vector>& x,
+cellMultigrid::cellMultigrid(const matrixRows& A, const List<vector>& x,
                              const multigridOptions& options, const List<std::uint8_t>& group)
     : options_(options), work_(new workspace)
 {
@@ -91,7 +91,7 @@ cellMultigrid::cellMultigrid(const csrMatrix& A, const List<vector>& x,
     rebuild(A, x, group);
 }
 
-void cellMultigrid::rebuild(const csrMatrix& A, const List<vector>& x,
+void cellMultigrid::rebuild(const matrixRows& A, const List<vector>& x,
                             const List<std::uint8_t>& group)
 {
     if (label(x.size()) != A.size() || (!group.empty() && label(group.size()) != A.size()))
@@ -116,19 +116,20 @@ List<label> cellMultigrid::levelSizes() const
 
 // Converts values to float, divided by the mean diagonal so that they stay far from the ends of the
 // range of float
-void cellMultigrid::buildFinest(const csrMatrix& A, const List<vector>& x,
+void cellMultigrid::buildFinest(const matrixRows& A, const List<vector>& x,
                                 const List<std::uint8_t>& group)
 {
     const label n = A.size();
     level_.resize(std::max<size_t>(1, level_.size()));
     multigridLevel& f = level_[0];
     const scalar sum = parallelSum(n, [&](label i, label e) {
-        return Eigen::Map<const Eigen::ArrayXd>(&A.diagonal[i], e - i).abs().sum();
+        scalar part = 0;
+        for (; i < e; ++i) part += std::abs(A.diagonalOf(i));
+        return part;
     });
     matrixScale_ = sum > 0 ? sum / n : 1;
     const scalar scale = 1 / matrixScale_;
-    const List<scalar> off =
-        f.A.assign(n, A.rowStart.data(), A.column.data(), A.value.data(), scale);
+    const List<scalar> off = f.A.assign(A, scale);
     f.excess.resize(n), f.weight.resize(n), f.point.resize(n);
     f.nRows.assign(n, 1);
     f.group = group.empty() ? List<std::uint8_t>(n, 0) : group;
@@ -144,8 +145,8 @@ void cellMultigrid::buildFinest(const csrMatrix& A, const List<vector>& x,
     parallelFor(n, [&](label i, label end) {
         for (; i < end; ++i)
         {
-            f.A.diagonal()[i] = f.weight[i] = float(scale * A.diagonal[i]);
-            f.excess[i] = float(scale * (A.diagonal[i] + off[i]));
+            f.A.diagonal()[i] = f.weight[i] = float(scale * A.diagonalOf(i));
+            f.excess[i] = float(scale * (A.diagonalOf(i) + off[i]));
             const vector p = x[i] - corner;
             f.point[i] = float4{float(p[0]), float(p[1]), float(p[2]), 0};
         }

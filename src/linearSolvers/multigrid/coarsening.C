@@ -113,20 +113,39 @@ void placeAggregates(const multigridLevel& fine, const cellAggregates& aggregate
     }
 }
 
+// The off-diagonals of a coarse level in pieces of blockRows rows
+class pieceRows : public matrixRows
+{
+public:
+    explicit pieceRows(const List<piece>& pieces) : pieces_(pieces)
+    {
+        for (const piece& p : pieces)
+        {
+            label first = 0;
+            for (const label length : p.length) first_.push_back(first), first += length;
+        }
+    }
+    label size() const override { return label(first_.size()); }
+    scalar diagonalOf(label) const override { return 0; }
+    label most(label a) const override { return pieces_[a / blockRows].length[a % blockRows]; }
+    label row(label a, std::int32_t* column, scalar* value) const override
+    {
+        const piece& p = pieces_[a / blockRows];
+        std::copy_n(p.column.begin() + first_[a], most(a), column);
+        std::copy_n(p.value.begin() + first_[a], most(a), value);
+        return most(a);
+    }
+
+private:
+    const List<piece>& pieces_;
+    List<label> first_;  // of each row, in its piece
+};
+
 // Joins the pieces and scales the off-diagonals by s
 void assemble(const List<piece>& pieces, float s, multigridLevel& coarse)
 {
-    List<label> rowStart(1, 0);
-    List<std::int32_t> column;
-    List<float> value;
-    for (const piece& p : pieces)
-    {
-        for (const label length : p.length) rowStart.push_back(rowStart.back() + length);
-        column.insert(column.end(), p.column.begin(), p.column.end());
-        value.insert(value.end(), p.value.begin(), p.value.end());
-    }
     const label n = label(coarse.point.size());
-    const List<scalar> off = coarse.A.assign(n, rowStart.data(), column.data(), value.data(), s);
+    const List<scalar> off = coarse.A.assign(pieceRows(pieces), s);
     for (label a = 0; a < n; ++a)
     {
         float& diagonal = coarse.A.diagonal()[a];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "faceVectors.H"
 #include "cellClosing.H"
+#include "rawList.H"
 
 #include <Eigen/Eigenvalues>
 
@@ -285,7 +286,7 @@ public:
         List<vec4>& c = faces.left;
         faces.nDims = cloud_.nDims;
         // the last vector is read as four numbers
-        faces.a.resize(faces.nDims * list_.index.size() + 4), c.assign(cloud_.n(), vec4{});
+        remake(faces.a, faces.nDims * list_.index.size() + 4), c.assign(cloud_.n(), vec4{});
         forRanges([&](label i, label end) {
             writeRange(sight(), b.data(), faces.nDims, i, end, faces.a.data(), c.data());
         });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viscousPairs.H"
+#include "rawList.H"
 
 namespace ispf
 {
@@ -27,7 +28,7 @@ void viscousPairs::setup(const stencil& s)
     // The support of a strip's particle is truncated, and so is that of its image: c_i = 1
     for (label j = 0; j < s.cloud.nAll(); ++j)
         if (const label i = s.cloud.ownerOf(j); i >= 0 && s.cloud.beyondOpen(i)) c[j] = 1;
-    K_.resize(s.list.index.size()), sum_.assign(s.cloud.n(), 0);
+    remake(K_, s.list.index.size()), sum_.assign(s.cloud.n(), 0);
     forPairs<among::all>(s.list, 0, s.cloud.n(), [&](label i, pairIndex k, label j) {
         const scalar other = c[j] > 0 ? c[j] : c[i];
         K_[k] = float(0.5 * (c[i] + other) * s.cloud.friction(i, j) *

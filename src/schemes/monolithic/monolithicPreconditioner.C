@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "monolithicPreconditioner.H"
 
-#include "execution.H"
+#include "forPairs.H"
+#include "matrixRows.H"
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +14,73 @@ namespace
 
 // Part of an error of the fluid's velocity that the sweeps may leave
 constexpr scalar leaves = 0.3;
+
+// Row i of L: sum_j -2 F_ij tau_ij (p_i - p_j).  Images count for their source, rigid neighbours are left out (dp/dn = 0).
+// The row of a given pressure has its diagonal alone
+class laplacianRows : public matrixRows
+{
+public:
+    explicit laplacianRows(const coupledSystem& system)
+        : cloud_(system.fsi().cloud),
+          list_(system.fsi().list),
+          tau_(system.tau()),
+          free_(system.dt() / system.fsi().rho),
+          diagonal_(cloud_.n())
+    {
+        parallelFor(size(), [&](label begin, label end) {
+            for (label i = begin; i < end; ++i)
+            {
+                scalar sum = 0;
+                forEntries(i, [&](label, scalar a, bool) { sum += a; });
+                diagonal_[i] = sum;
+            }
+        });
+        // rows without neighbours and rows of given pressure: any positive diagonal of the right size
+        const scalar largest = *std::max_element(diagonal_.begin(), diagonal_.end());
+        for (scalar& d : diagonal_)
+            if (!(d > 0)) d = largest;
+    }
+
+    label size() const override { return cloud_.n(); }
+    scalar diagonalOf(label i) const override { return diagonal_[i]; }
+    label most(label i) const override
+    {
+        return cloud_.pHeld(i) ? 0 : label(list_.mid[i] - list_.own[i]);
+    }
+    label row(label i, std::int32_t* column, scalar* value) const override
+    {
+        label n = 0;
+        forEntries(i, [&](label j, scalar a, bool same) {
+            if (same && !cloud_.pHeld(j)) column[n] = j, value[n++] = -a;
+        });
+        return n;
+    }
+
+private:
+    // entry(j, weight, same): same is true if i and j are both fluid or both solid
+    template <class Entry>
+    void forEntries(label i, const Entry& entry) const
+    {
+        if (cloud_.pHeld(i)) return;
+        forNeighbours<among::connected>(list_, i, [&](pairIndex k, label neighbour) {
+            const label j = cloud_.ownerOf(neighbour);
+            if (j == i) return;
+            const bool same = k < list_.mid[i];
+            entry(j, -2 * list_.F[k] * (same ? free_ : tauBeside(i, j)), same);
+        });
+    }
+    // of a neighbour of the other phase: a solid yields little to the fluid, fluid gives way to a solid
+    scalar tauBeside(label i, label j) const
+    {
+        return cloud_.isFluid(i) ? 2 * free_ * tau_[j] / (free_ + tau_[j]) : free_;
+    }
+
+    const particleCloud& cloud_;
+    const neighbourList& list_;
+    const List<scalar>& tau_;
+    scalar free_;
+    List<scalar> diagonal_;
+};
 
 }  // namespace
 
@@ -42,7 +110,7 @@ void monolithicPreconditioner::setup()
                      c.kernel->support());
 
     chooseSweeps();
-    const csrMatrix L = laplacian();
+    const laplacianRows L(system_);
     List<vector> position(cloud.n());
     List<std::uint8_t> group(cloud.n());
     for (label i = 0; i < cloud.n(); ++i)
@@ -64,54 +132,6 @@ void monolithicPreconditioner::chooseSweeps()
     leastEigenvalue_ = system_.fsi().rho * cloud.volume() / system_.dt() / largest;
     const scalar reach = std::max(1 - leastEigenvalue_, 1e-9);
     sweeps_ = label(std::ceil(std::acosh(1 / leaves) / std::acosh(1 / reach)));
-}
-
-csrMatrix monolithicPreconditioner::laplacian() const
-{
-    const fsiCase& c = system_.fsi();
-    const particleCloud& cloud = c.cloud;
-    const label n = cloud.n();
-    const scalar free = system_.dt() / c.rho;
-    // a neighbour of the other phase: a solid yields little to the fluid, fluid gives way to a solid
-    const auto tauBeside = [&](label i, label j) {
-        return cloud.isFluid(i) ? 2 * free * system_.tau()[j] / (free + system_.tau()[j]) : free;
-    };
-
-    // Row i: sum_j -2 F_ij tau_ij (p_i - p_j).  Images count for their source, rigid neighbours are left out
-    // (dp/dn = 0).  The row of a given pressure has its diagonal alone
-    const auto row = [&](label i, auto&& entry) {
-        scalar d = 0;
-        if (cloud.pHeld(i)) return d;
-        forNeighbours<among::connected>(c.list, i, [&](pairIndex k, label neighbour) {
-            const label j = cloud.ownerOf(neighbour);
-            if (j == i) return;
-            const bool same = k < c.list.mid[i];
-            const scalar a = -2 * c.list.F[k] * (same ? free : tauBeside(i, j));
-            d += a;
-            if (same && !cloud.pHeld(j)) entry(j, -a);
-        });
-        return d;
-    };
-    csrMatrix L;
-    L.rowStart.assign(n + 1, 0), L.diagonal.resize(n);
-    parallelFor(n, [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-            L.diagonal[i] = row(i, [&](label, scalar) { ++L.rowStart[i + 1]; });
-    });
-    for (label i = 0; i < n; ++i) L.rowStart[i + 1] += L.rowStart[i];
-    L.column.resize(L.rowStart[n]), L.value.resize(L.rowStart[n]);
-    parallelFor(n, [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-        {
-            label k = L.rowStart[i];
-            row(i, [&](label j, scalar a) { L.column[k] = j, L.value[k++] = a; });
-        }
-    });
-    // rows without neighbours and rows of given pressure: any positive diagonal of the right size
-    const scalar largest = *std::max_element(L.diagonal.begin(), L.diagonal.end());
-    for (scalar& d : L.diagonal)
-        if (!(d > 0)) d = largest;
-    return L;
 }
 
 // u = A^-1 f for f/A_ii in u

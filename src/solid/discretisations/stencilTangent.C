@@ -80,8 +80,6 @@ void stencilTangent::makePattern()
         pattern_.column.insert(pattern_.column.end(), row.begin(), row.end());
         pattern_.rowStart.push_back(label(pattern_.column.size()));
     }
-    pattern_.value.assign(pattern_.column.size(), tensor::Zero());
-    pattern_.diagonal.assign(size_t(n), tensor::Zero());
 }
 
 // slot: place of each column in the row's values, for the columns of the row

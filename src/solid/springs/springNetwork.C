@@ -16,7 +16,6 @@
 #include "forPairs.H"
 
 #include <algorithm>
-#include <set>
 
 namespace ispf
 {
@@ -90,7 +89,7 @@ public:
     void force(const List<vec4>& x, List<vec4>& f) const override;
     scalar energy(const List<vec4>& x) const override;
     void stress(const List<vec4>& x, List<tensor>& tau) const override;
-    blockMatrix3 tangentPattern() const override { return pattern_; }
+    blockMatrix3 tangentPattern() const override { return pattern_.withZeros(); }
     void assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const override;
     List<label> linkCounts() const override;
     word description() const override { return summary_; }
@@ -106,7 +105,7 @@ private:
     }
 
     linkTable links_;
-    blockMatrix3 pattern_;
+    blockMatrix3 pattern_;  // without values
     word summary_;
 };
 
@@ -116,9 +115,11 @@ void springNetwork::makePattern()
     pattern_.rowStart.push_back(0);
     for (label i = 0; i < n(); ++i)
     {
-        std::set<std::int32_t> columns(links_.index.begin() + links_.start[i],
-                                       links_.index.begin() + links_.start[i + 1]);
-        pattern_.column.insert(pattern_.column.end(), columns.begin(), columns.end());
+        List<std::int32_t> columns(links_.index.begin() + links_.start[i],
+                                   links_.index.begin() + links_.start[i + 1]);
+        std::sort(columns.begin(), columns.end());
+        pattern_.column.insert(pattern_.column.end(), columns.begin(),
+                               std::unique(columns.begin(), columns.end()));
         const label first = pattern_.rowStart.back(), last = label(pattern_.column.size());
         forNeighbours<among::all>(links_, i, [&](pairIndex p, label j) {
             const auto at =
@@ -127,8 +128,6 @@ void springNetwork::makePattern()
         });
         pattern_.rowStart.push_back(last);
     }
-    pattern_.value.assign(pattern_.column.size(), tensor::Zero());
-    pattern_.diagonal.assign(size_t(n()), tensor::Zero());
 }
 
 void springNetwork::force(const List<vec4>& x, List<vec4>& f) const
