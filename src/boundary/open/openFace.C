@@ -99,9 +99,9 @@ void openFace::findFeet(const particleCloud& cloud) const
     constexpr scalar nowhere = std::numeric_limits<scalar>::quiet_NaN();
     known_.resize(cloud.n(), {vector::Constant(nowhere), {}});
     parallelFor(cloud.n(), [&](label begin, label end) {
+        footSequence near(*surface_);
         for (label i = begin; i < end; ++i)
-            if (const vector x = cloud.x[i].xyz(); known_[i].x != x)
-                known_[i] = {x, surface_->find(x)};
+            if (const vector x = cloud.x[i].xyz(); known_[i].x != x) known_[i] = {x, near.find(x)};
     });
 }
 

@@ -119,9 +119,10 @@ void openFace::setSites(const List<vector>& sites, const particleCloud& cloud, c
 {
     List<surfaceFoot> feet;
     List<vector> kept;
+    footSequence near(*surface_);
     for (const vector& x : sites)
     {
-        const surfaceFoot f = surface_->find(x);
+        const surfaceFoot f = near.find(x);
         if (!f.found || f.depth < 0 || f.depth > depth_) continue;
         feet.push_back(f), kept.push_back(x);
         betweenWalls_ = betweenWalls_ || beside(f.foot - 0.5 * dx_ * f.normal, 0.75 * dx_);
