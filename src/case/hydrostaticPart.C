@@ -51,12 +51,11 @@ void hydrostaticPart::setStep(scalar t0, scalar t1)
 scalar hydrostaticPart::givenLevel(const particleCloud& cloud) const
 {
     if (during_.isZero(0)) return 0;
-    scalar sum = 0;
-    label given = 0;
-    for (label i = 0; i < cloud.n(); ++i)
-        if (cloud.pFixed[i])
-            sum += cloud.pGiven[i] - c_.rho * during_.dot(cloud.x[i].xyz()), ++given;
-    return given ? sum / given : 0;
+    const auto [n, sum] = sumsOf(0, cloud.n(), [&](label i) -> std::array<scalar, 2> {
+        if (!cloud.pFixed[i]) return {};
+        return {1, cloud.pGiven[i] - c_.rho * during_.dot(cloud.x[i].xyz())};
+    });
+    return n > 0 ? sum / n : 0;
 }
 
 void hydrostaticPart::take(particleCloud& cloud)
@@ -69,12 +68,11 @@ void hydrostaticPart::add(particleCloud& cloud, const vector& toState, scalar le
                           scalar sign) const
 {
     if (toState.isZero(0) && during_.isZero(0)) return;
-    for (label i = 0; i < cloud.n(); ++i)
-    {
+    forEach(0, cloud.n(), [&](label i) {
         const vector x = cloud.x[i].xyz();
         cloud.Up[i][3] += sign * (c_.rho * toState.dot(x) + level);
         cloud.pGiven[i] += sign * (c_.rho * during_.dot(x) + level);
-    }
+    });
 }
 
 }  // namespace ispf

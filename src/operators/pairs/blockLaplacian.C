@@ -16,13 +16,9 @@ blockLaplacian::blockLaplacian(const graph& g, const List<scalar>& holds) : g_(g
     const tensor free = g_.cloud.freeDirections();
     const int nMatrices = free.isIdentity(1e-9) ? 1 : 3;
     List<Eigen::MatrixXd> A(nMatrices, Eigen::MatrixXd::Zero(n_, n_));
-    List<label> start(n_ + 1, 0), members(end - first);  // particles of each block
+    List<List<label>> members(n_);  // particles of each block
     for (label i = first; i < end; ++i)
-        if (block_[i] >= 0) ++start[block_[i] + 1];
-    for (label b = 0; b < n_; ++b) start[b + 1] += start[b];
-    List<label> next(start.begin(), start.end() - 1);
-    for (label i = first; i < end; ++i)
-        if (block_[i] >= 0) members[next[block_[i]]++] = i;
+        if (block_[i] >= 0) members[block_[i]].push_back(i);
     parallelFor(
         n_,
         [&](label from, label to) {
@@ -30,10 +26,10 @@ blockLaplacian::blockLaplacian(const graph& g, const List<scalar>& holds) : g_(g
             for (label b = from; b < to; ++b)
             {
                 for (Eigen::VectorXd& r : row) r = Eigen::VectorXd::Zero(n_);
-                for (label m = start[b]; m < start[b + 1]; ++m)
+                for (const label i : members[b])
                 {
-                    addPairs(members[m], free, row);
-                    for (Eigen::VectorXd& r : row) r[b] += holds[members[m]];
+                    addPairs(i, free, row);
+                    for (Eigen::VectorXd& r : row) r[b] += holds[i];
                 }
                 for (int d = 0; d < nMatrices; ++d) A[d].row(b) = row[d];
             }

@@ -3,6 +3,7 @@
 
 #include "approachLimit.H"
 #include "deformation.H"
+#include "execution.H"
 #include "shiftingFrame.H"
 #include "stepReport.H"
 
@@ -111,9 +112,13 @@ bool couplingScheme::accepted(scalar t, scalar dt, int halvings, int most)
 // Mean velocity if only cyclic patches bound the case (shiftingFrame.H), else zero
 vector couplingScheme::frame() const
 {
-    vector sum = vector::Zero();
-    for (label i = 0; endless_ && i < c_.cloud.n(); ++i) sum += c_.cloud.Up[i].xyz();
-    return sum / scalar(c_.cloud.n());
+    if (!endless_) return vector::Zero();
+    const label n = c_.cloud.n();
+    const auto sum = sumsOf(0, n, [&](label i) {
+        const vec4& u = c_.cloud.Up[i];
+        return std::array<scalar, 3>{u[0], u[1], u[2]};
+    });
+    return vector(sum[0], sum[1], sum[2]) / scalar(n);
 }
 
 bool couplingScheme::outletsDiffer(scalar tau) const
@@ -125,17 +130,17 @@ word couplingScheme::tooFar(scalar dt)
 {
     const particleCloud& cloud = c_.cloud;
     const vector along = frame();
-    scalar most = 0, mostInStrip = 0;
-    for (label i = 0; i < cloud.n(); ++i)
-    {
-        const scalar way = dt * (cloud.Up[i].xyz() - along).norm();
-        const bool beyond = cloud.beyondOpen(i);
-        if (!std::isfinite(way) || !std::isfinite(cloud.Up[i][3]) ||
-            (beyond && way > farthest * cloud.dx))
-            return cloud.describe(i) + " would move " + str(way / cloud.dx, 3) + " dx";
-        most = std::max(most, way);
-        if (beyond) mostInStrip = std::max(mostInStrip, way);
-    }
+    const auto wayOf = [&](label i) { return dt * (cloud.Up[i].xyz() - along).norm(); };
+    // p counts too, so that a p that is not finite is found
+    const scalar most =
+        largestOf(0, cloud.n(), [&](label i) { return wayOf(i) + 0 * cloud.Up[i][3]; });
+    const scalar mostInStrip = largestOf(
+        0, cloud.n(), [&](label i) { return cloud.beyondOpen(i) ? wayOf(i) : scalar(0); });
+    if (!std::isfinite(most) || mostInStrip > farthest * cloud.dx)
+        for (label i = 0; i < cloud.n(); ++i)
+            if (const scalar way = wayOf(i); !std::isfinite(way + 0 * cloud.Up[i][3]) ||
+                                             (cloud.beyondOpen(i) && way > farthest * cloud.dx))
+                return cloud.describe(i) + " would move " + str(way / cloud.dx, 3) + " dx";
     const bool far = most > farthest * cloud.dx;
     if (!far && !c_.time.adjustTimeStep()) return "";
     const auto [rate, i, j] = fastestDeformation(cloud, c_.list);
@@ -149,11 +154,11 @@ word couplingScheme::tooFar(scalar dt)
 
 couplingScheme::stepLimit couplingScheme::motionLimit() const
 {
-    scalar u = 0;
     const vector along = frame();
-    for (label i = 0; i < c_.cloud.n(); ++i) u = std::max(u, (c_.cloud.Up[i].xyz() - along).norm());
     const scalar given = c_.walls->maxGivenSpeed();
-    u = std::max(u, given);
+    const scalar u = std::max(given, largestOf(0, c_.cloud.n(), [&](label i) {
+                                  return (c_.cloud.Up[i].xyz() - along).norm();
+                              }));
     if (!c_.time.adjustTimeStep() || u == 0) return {1e30, "no"};
     const scalar way = aimedWay * c_.kernel->h();
     const auto last = c_.cloud.state.find(entries::deformation);
@@ -167,17 +172,14 @@ couplingScheme::stepLimit couplingScheme::motionLimit() const
 word couplingScheme::tooRough(const timeScheme& time, scalar dt, bool mean)
 {
     const particleCloud& cloud = c_.cloud;
-    const scalar most = roughest * cloud.dx;
-    scalar worst = 0;
-    for (label i = 0; i < cloud.n(); ++i)
-    {
-        if (!cloud.isFree(i)) continue;
-        const scalar error = time.errorOfWay(cloud, i, mean);
-        worst = std::max(worst, error);
-        if (error > most)
+    const auto errorOf = [&](label i) {
+        return cloud.isFree(i) ? time.errorOfWay(cloud, i, mean) : 0;
+    };
+    const scalar worst = largestOf(0, cloud.n(), errorOf);
+    for (label i = 0; worst > roughest * cloud.dx && i < cloud.n(); ++i)
+        if (errorOf(i) == worst)
             return "the way of " + cloud.describe(i) + " is uncertain by " +
-                   str(error / cloud.dx, 3) + " dx, so fast does its velocity change";
-    }
+                   str(worst / cloud.dx, 3) + " dx, so fast does its velocity change";
     if (c_.time.adjustTimeStep()) c_.cloud.state.set(entries::wayError, worst / (dt * dt));
     return "";
 }

@@ -47,21 +47,20 @@ energyLedger::account energyLedger::kept() const
 scalar energyLedger::kineticNow() const
 {
     const particleCloud& cloud = c_.cloud;
-    return 0.5 * c_.rho * cloud.volume() * parallelSum(cloud.n(), [&](label begin, label end) {
-               scalar sum = 0;
-               for (label i = begin; i < end; ++i)
-                   if (c_.cloud.isFree(i)) sum += cloud.Up[i].xyz().squaredNorm();
-               return sum;
-           });
+    const auto square = [&](label i) {
+        return cloud.isFree(i) ? cloud.Up[i].xyz().squaredNorm() : 0;
+    };
+    return 0.5 * c_.rho * cloud.volume() * sumOf(0, cloud.n(), square);
 }
 
 std::array<scalar, energyLedger::nStores> energyLedger::energies(const List<vec4>& x) const
 {
     const particleCloud& cloud = c_.cloud;
     const scalar mass = c_.rho * cloud.volume();
-    scalar heights = 0;
-    for (label i = 0; i < cloud.n() && !c_.bodyForce.empty(); ++i)
-        if (c_.cloud.isFree(i)) heights -= c_.bodyForce[cloud.zone[i]].dot(x[i].xyz());
+    const auto height = [&](label i) {
+        return cloud.isFree(i) ? -c_.bodyForce[cloud.zone[i]].dot(x[i].xyz()) : 0;
+    };
+    const scalar heights = c_.bodyForce.empty() ? 0 : sumOf(0, cloud.n(), height);
     return {kineticNow(), c_.structure ? c_.structure->energy(x) : 0, mass * heights};
 }
 
@@ -81,10 +80,9 @@ void energyLedger::begin(const List<vec4>& x)
 
 scalar energyLedger::level(const List<vec4>& up) const
 {
-    scalar sum = 0;
-    label n = 0;
-    for (label i = c_.cloud.nSolid(); i < c_.cloud.n(); ++i)
-        if (c_.cloud.isFree(i)) sum += up[i][3], ++n;
+    const auto [n, sum] = sumsOf(c_.cloud.nSolid(), c_.cloud.n(), [&](label i) {
+        return c_.cloud.isFree(i) ? std::array<scalar, 2>{1, up[i][3]} : std::array<scalar, 2>{};
+    });
     return n > 0 ? sum / n : 0;
 }
 
@@ -103,30 +101,33 @@ void energyLedger::bookFriction(const viscousPairs::power& friction, scalar fact
     terms_[walls] += factor * friction.walls, terms_[faces] += factor * friction.faces;
 }
 
-// `left` is the residual of a solved row.  The solver's term is its work against p less the mean p.  The mean p times the
-// missing volume is work of the boundary
-void energyLedger::bookRow(label i, const continuityRow& r, scalar level, scalar dt)
+// Terms of the row of particle i over dt V.  `left` is the residual of a solved row.  The solver's term is its work against
+// p less the mean p.  The mean p times the missing volume is work of the boundary
+std::array<scalar, energyLedger::nTerms> energyLedger::parts(label i, const continuityRow& r,
+                                                             scalar level) const
 {
     const particleCloud& cloud = c_.cloud;
-    const scalar volume = dt * cloud.volume(), work = volume * r.p;
-    terms_[stabiliser] -= work * r.stabiliser;
-    terms_[walls] -= work * (r.wallFlux - r.faceFlux), terms_[faces] -= work * r.faceFlux;
-    if (cloud.pHeld(i)) terms_[faces] += work * r.row;
+    std::array<scalar, nTerms> of{};
+    of[stabiliser] -= r.p * r.stabiliser;
+    of[walls] -= r.p * (r.wallFlux - r.faceFlux), of[faces] -= r.p * r.faceFlux;
+    if (cloud.pHeld(i)) of[faces] += r.p * r.row;
     else
     {
-        const scalar left = volume * (r.row - r.source);
-        terms_[sources] += work * r.source, terms_[solver] += (r.p - level) * left;
-        terms_[c_.walls->hasOpen() ? faces : walls] += level * left;
+        const scalar left = r.row - r.source;
+        of[sources] += r.p * r.source, of[solver] += (r.p - level) * left;
+        of[c_.walls->hasOpen() ? faces : walls] += level * left;
     }
     if (!cloud.isFree(i))
-        terms_[cloud.isFluid(i) ? faces : walls] += volume * cloud.Up[i].xyz().dot(r.gradient);
+        of[cloud.isFluid(i) ? faces : walls] += cloud.Up[i].xyz().dot(r.gradient);
+    return of;
 }
 
 scalar energyLedger::bookSprings(const List<vec4>& f, scalar dt)
 {
-    scalar free = 0, clamped = 0;
-    for (label i = 0; i < label(f.size()); ++i)
-        (c_.cloud.isFree(i) ? free : clamped) += dt * f[i].xyz().dot(c_.cloud.Up[i].xyz());
+    const auto [free, clamped] = sumsOf(0, label(f.size()), [&](label i) {
+        const scalar work = dt * f[i].xyz().dot(c_.cloud.Up[i].xyz());
+        return c_.cloud.isFree(i) ? std::array<scalar, 2>{work, 0} : std::array<scalar, 2>{0, work};
+    });
     terms_[springs] += free + clamped, terms_[walls] -= clamped;
     return free;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stepReport.H"
 
+#include "execution.H"
 #include "messages.H"
 #include <ostream>
 
@@ -9,13 +10,9 @@ namespace ispf
 
 void printCourant(const particleCloud& cloud, scalar dt)
 {
-    scalar sum = 0, most = 0;
-    for (label i = 0; i < cloud.n(); ++i)
-    {
-        const scalar Co = cloud.Up[i].xyz().norm() * dt / cloud.dx;
-        sum += Co, most = std::max(most, Co);
-    }
-    info() << "Courant Number mean: " << sum / cloud.n() << " max: " << most << std::endl;
+    const auto Co = [&](label i) { return cloud.Up[i].xyz().norm() * dt / cloud.dx; };
+    info() << "Courant Number mean: " << sumOf(0, cloud.n(), Co) / cloud.n()
+           << " max: " << std::max(scalar(0), largestOf(0, cloud.n(), Co)) << std::endl;
 }
 
 namespace entries
@@ -28,12 +25,10 @@ const stateEntry<scalar> continuityErrors{"continuityErrors"};
 
 void printContinuityErrors(particleCloud& cloud, const List<scalar>& left, scalar dt)
 {
-    scalar local = 0, global = 0;
-    for (const scalar e : left)
-    {
-        const scalar error = dt * e / scalar(left.size());
-        local += std::abs(error), global += error;
-    }
+    const auto [local, global] = sumsOf(0, label(left.size()), [&](label i) {
+        const scalar error = dt * left[i] / scalar(left.size());
+        return std::array<scalar, 2>{std::abs(error), error};
+    });
     cloud.state.add(entries::continuityErrors, global);
     info() << "time step continuity errors : sum local = " << local << ", global = " << global
            << ", cumulative = " << cloud.state.get(entries::continuityErrors, 0) << std::endl;

@@ -61,15 +61,16 @@ void timeScheme::start(particleCloud& cloud, scalar t, scalar dt)
     setCoefficients(before_);
     List<vec4>& way = cloud.vectors[aheadOfStep];
     way.assign(cloud.n(), vec4{});
-    for (label i = 0; i < cloud.n(); ++i)
+    forEach(0, cloud.n(), [&](label i) {
         way[i] = vec4::from(to_ * cloud.Up[i].xyz()), cloud.x[i].s += way[i].s;
+    });
 }
 
 List<vec4> timeScheme::startPlaces(const particleCloud& cloud) const
 {
     List<vec4> x(cloud.x.begin(), cloud.x.begin() + cloud.n());
     if (const vec4* ahead = to_ > 0 ? fieldOf(cloud, aheadOfStep) : nullptr)
-        for (label i = 0; i < cloud.n(); ++i) x[i].s -= ahead[i].s;
+        forEach(0, cloud.n(), [&](label i) { x[i].s -= ahead[i].s; });
     return x;
 }
 
@@ -119,17 +120,15 @@ void timeScheme::end(particleCloud& cloud, energyLedger& energy)
                                     ? vector(ofStep * cloud.Up[i].xyz() + ofLast * way[i].xyz())
                                     : cloud.Up[i].xyz());
     }
-    scalar taken = 0, gained = 0;
-    for (label i = 0; i < n; ++i)
-    {
-        if (!cloud.isFree(i)) continue;
+    const auto [taken, gained] = sumsOf(0, n, [&](label i) -> std::array<scalar, 2> {
+        if (!cloud.isFree(i)) return {};
         const vector un = now_[i].xyz(), u0 = second ? before[i].xyz() : un;
         const vector u = (cloud.Up[i].xyz() - b1_ * un - b0_ * u0) / b2_;
         cloud.Up[i].setXyz(u);
-        taken += (l2_ * u + l1_ * un + l0_ * u0).squaredNorm();
-        // gain of the kinetic energy less that of the bounded energy
-        gained += 0.5 * (u.squaredNorm() - un.squaredNorm()) - stored(u, un) + stored(un, u0);
-    }
+        // the second: gain of the kinetic energy less that of the bounded energy
+        return {(l2_ * u + l1_ * un + l0_ * u0).squaredNorm(),
+                0.5 * (u.squaredNorm() - un.squaredNorm()) - stored(u, un) + stored(un, u0)};
+    });
     energy[energyLedger::step] += c_.rho * cloud.volume() * (gained - taken);
     if (!keeps_) return;
     cloud.vectors[levelBefore] = now_;

@@ -29,12 +29,10 @@ void coupledSystem::bookMomentum(const List<vec4>& before, const List<vec4>& spr
     {
         Ku_.resize(cloud.nSolid());
         K_->apply(phi_, Ku_);
-        for (label i = 0; i < cloud.nSolid(); ++i) spring[i].s -= dt_ * Ku_[i].s;
+        forEach(0, cloud.nSolid(), [&](label i) { spring[i].s -= dt_ * Ku_[i].s; });
     }
-    scalar forced = 0, left = 0;
-    for (label i = 0; i < cloud.n(); ++i)
-    {
-        if (!cloud.isFree(i)) continue;
+    const auto [forced, left] = sumsOf(0, cloud.n(), [&](label i) -> std::array<scalar, 2> {
+        if (!cloud.isFree(i)) return {};
         const vector u = phi_[i].xyz(), gained = u - before[i].xyz();
         vector force = vector::Zero();
         if (!c_.bodyForce.empty())
@@ -43,9 +41,8 @@ void coupledSystem::bookMomentum(const List<vec4>& before, const List<vec4>& spr
         vector rest = viscousFactor() * lap_[i].xyz() + V * gp_[i].xyz() - force;
         if (!drop.empty()) rest -= V * drop[i].xyz();  // gp_ contains it
         if (i < label(spring.size())) rest -= spring[i].xyz();
-        forced += dt_ * u.dot(force);
-        left += u.dot(m * gained + dt_ * rest);
-    }
+        return {dt_ * u.dot(force), u.dot(m * gained + dt_ * rest)};
+    });
     energy.bookFriction(rows_.viscous().powerOf(phi_), dt_ * c_.mu * V);
     energy[energyLedger::forces] += forced;
     energy[energyLedger::solver] += left;
@@ -66,14 +63,12 @@ void coupledSystem::bookPressure(const List<vec4>& before, scalar theta, const L
     addSolidMemory(before, theta, rows);
     const scalar level = energy.level(phi_);
     const List<scalar>&all = rows_.pair().wallFlux(), &faces = rows_.pair().faceFlux();
-    for (label i = 0; i < cloud.n(); ++i)
-    {
+    cloud.takeIn([&](label i) { return rows[i] + all[i]; });
+    energy.bookRows(level, dt_, [&](label i) -> energyLedger::continuityRow {
         const scalar face = faces.empty() ? 0 : faces[i];
         const vector g = gp_[i].xyz() - (drop.empty() ? vector(vector::Zero()) : drop[i].xyz());
-        cloud.takeIn(i, rows[i] + all[i]);
-        energy.bookRow(i, {phi_[i][3], rows[i] - div[i], rows[i] + all[i], q[i], all[i], face, g},
-                       level, dt_);
-    }
+        return {phi_[i][3], rows[i] - div[i], rows[i] + all[i], q[i], all[i], face, g};
+    });
 }
 
 }  // namespace ispf

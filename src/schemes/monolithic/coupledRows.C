@@ -81,8 +81,9 @@ void coupledRows::solidGradient(const List<vec4>& phi, List<vec4>& gp) const
     volume_->addStress(phi, stress_);
     volume_->gradient().forces(stress_, force_);
     const scalar perVolume = 1 / cloud_->volume();
-    for (label i = 0; i < cloud_->nSolid(); ++i)
+    forEach(0, cloud_->nSolid(), [&](label i) {
         gp[i] = vec4::from(perVolume * (load_[i].xyz() - force_[i].xyz()));
+    });
 }
 
 void coupledRows::divergence(const List<vec4>& phi, List<scalar>& div) const
@@ -91,7 +92,7 @@ void coupledRows::divergence(const List<vec4>& phi, List<scalar>& div) const
     pair_.divergence(phi, div);
     if (!volume_) return;
     volume_->rate(phi, rate_, dF_);
-    for (label i = 0; i < cloud_->nSolid(); ++i) div[i] = rate_[i];
+    forEach(0, cloud_->nSolid(), [&](label i) { div[i] = rate_[i]; });
     surface_->addFlux(phi, dF_, div);
 }
 

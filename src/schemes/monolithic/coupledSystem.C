@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "coupledSystem.H"
 
-#include <numeric>
-
 namespace ispf
 {
 
@@ -15,21 +13,21 @@ void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solid
     const List<scalar>& viscous = rows_.viscous().sum();
     const scalar inertia = c_.rho * cloud.volume() / dt;
     // clamped particles have no tangent among themselves: they get the mean diagonal of free ones
-    scalar meanTangent = 0;
-    label nFree = 0;
-    for (label i = 0; K && i < cloud.nSolid(); ++i)
-        if (!cloud.uFixed[i]) meanTangent += K->diagonal[i].trace() / cloud.nDims, ++nFree;
-    if (nFree > 0) meanTangent /= nFree;
+    const auto [nFree, sum] = sumsOf(0, K ? cloud.nSolid() : 0, [&](label i) {
+        return cloud.uFixed[i]
+                   ? std::array<scalar, 2>{}
+                   : std::array<scalar, 2>{1, K->diagonal[i].trace() / cloud.nDims};
+    });
+    const scalar meanTangent = nFree > 0 ? sum / nFree : 0;
     diagonal_.resize(cloud.n()), tau_.resize(cloud.n());
-    for (label i = 0; i < cloud.n(); ++i)
-    {
+    forEach(0, cloud.n(), [&](label i) {
         diagonal_[i] = inertia - viscousFactor() * viscous[i];
         if (K && i < cloud.nSolid())
             diagonal_[i] +=
                 dt * (cloud.uFixed[i] ? meanTangent : K->diagonal[i].trace() / cloud.nDims);
         tau_[i] = cloud.volume() / diagonal_[i];
-    }
-    fluidTau_ = std::accumulate(tau_.begin() + cloud.nSolid(), tau_.end(), scalar(0)) /
+    });
+    fluidTau_ = sumOf(cloud.nSolid(), cloud.n(), [&](label i) { return tau_[i]; }) /
                 scalar(cloud.n() - cloud.nSolid());
     rows_.setTau(tau_, fluidTau_);
     enclosed_.setup([this](const List<vec4>& phi, List<vec4>& gp) { rows_.solidGradient(phi, gp); },
@@ -52,8 +50,7 @@ void coupledSystem::momentumSide(const List<vec4>& springForce, const List<vec4>
     const particleCloud& cloud = c_.cloud;
     const scalar mass = c_.rho * cloud.volume();
     b.resize(size());
-    for (label i = 0; i < cloud.n(); ++i)
-    {
+    forEach(0, cloud.n(), [&](label i) {
         vector m = mass / dt_ * cloud.Up[i].xyz() - viscousFactor() * lap[i].xyz();
         if (!c_.bodyForce.empty())
             m += mass * (c_.bodyForce[cloud.zone[i]] - hydrostatic_.acceleration());
@@ -63,7 +60,7 @@ void coupledSystem::momentumSide(const List<vec4>& springForce, const List<vec4>
         for (int a = 0; a < 3; ++a)
             b[4 * i + a] = cloud.uFixed[i] ? cloud.Up[i][a] : m[a] / diagonal_[i];
         if (cloud.pHeld(i)) b[4 * i + 3] = cloud.heldPressure(i);
-    }
+    });
 }
 
 void coupledSystem::writeRows(const List<vec4>& phi, const List<vec4>& lap, const List<vec4>& gp,
@@ -98,11 +95,10 @@ void coupledSystem::stabiliserGradient(const List<vec4>& gp, List<vec4>& gs) con
 {
     const particleCloud& cloud = c_.cloud;
     gs.resize(cloud.nAll());
-    for (label i = 0; i < cloud.n(); ++i)
-    {
+    forEach(0, cloud.n(), [&](label i) {
         gs[i] = cloud.isFluid(i) ? gp[i] : vec4{};
         gs[i][3] = phi_[i][3];
-    }
+    });
     cloud.fillGradientGhosts(gs);
 }
 
@@ -123,10 +119,10 @@ void coupledSystem::addSolidMemory(const List<vec4>& before, scalar theta, List<
     const particleCloud& cloud = c_.cloud;
     if (cloud.nSolid() == 0) return;
     gs_.assign(cloud.nAll(), vec4{});
-    for (label i = 0; i < cloud.nSolid(); ++i) gs_[i][3] = theta * before[i][3];
+    forEach(0, cloud.nSolid(), [&](label i) { gs_[i][3] = theta * before[i][3]; });
     cloud.fillGradientGhosts(gs_);
     rows_.solidStabiliser(gs_, cp_);
-    for (label i = 0; i < cloud.nSolid(); ++i) rows[i] += cp_[i];
+    forEach(0, cloud.nSolid(), [&](label i) { rows[i] += cp_[i]; });
 }
 
 void coupledSystem::rightHandSide(scalar theta, const List<vec4>& springForce,
@@ -145,12 +141,13 @@ void coupledSystem::rightHandSide(scalar theta, const List<vec4>& springForce,
         for (const auto& [g, offset] : pressureOffsets()) gs_[g][3] += offset;
         const List<vec4> none(cloud.nAll());
         rows_.continuity(none, gs_, cp_);
-        for (label i = cloud.nSolid(); i < cloud.n(); ++i) known[i] += cp_[i];
+        forEach(cloud.nSolid(), cloud.n(), [&](label i) { known[i] += cp_[i]; });
     }
     addSolidMemory(cloud.Up, theta, known);
     momentumSide(springForce, lap_, drop, b);
-    for (label i = 0; i < cloud.n(); ++i)
+    forEach(0, cloud.n(), [&](label i) {
         if (!cloud.pHeld(i)) b[4 * i + 3] = cloud.dx * (q[i] - known[i]);
+    });
     enclosed_.balance(b);
 }
 
@@ -158,7 +155,9 @@ void coupledSystem::apply(const List<scalar>& x, List<scalar>& y) const
 {
     const particleCloud& cloud = c_.cloud;
     phi_.resize(cloud.nAll());
-    std::copy(x.begin(), x.end(), reinterpret_cast<scalar*>(phi_.data()));
+    forEach(0, cloud.n(), [&](label i) {
+        phi_[i].s = simd4{x[4 * i], x[4 * i + 1], x[4 * i + 2], x[4 * i + 3]};
+    });
     enclosed_.dropLevel(phi_);
     cloud.fillGhosts(phi_, true);
     rows_.gradient(phi_, gp_);

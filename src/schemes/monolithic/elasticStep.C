@@ -65,7 +65,7 @@ bool elasticStep::again(const List<scalar>& z, const List<scalar>& A, const part
     if (last_ <= limit || pass_ == entries_.maxIter) return false;
     structure_->assembleTangent(x_, tangentKind::full, K_);
     K_.apply(u_, Ku_);
-    for (label i = 0; i < structure_->n(); ++i) force_[i].s = f_[i].s + tau_ * Ku_[i].s;
+    forEach(0, structure_->n(), [&](label i) { force_[i].s = f_[i].s + tau_ * Ku_[i].s; });
     return true;
 }
 

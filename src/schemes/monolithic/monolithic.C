@@ -149,9 +149,8 @@ scalar monolithic::velocityScale() const
 scalar monolithic::rounding(scalar dt, const List<scalar>& z) const
 {
     const particleCloud& cloud = c_.cloud;
-    scalar x = 0, p = 0;
-    for (label i = 0; i < cloud.n(); ++i)
-        x = std::max(x, cloud.x[i].xyz().norm()), p = std::max(p, std::abs(z[4 * i + 3]));
+    const scalar x = largestOf(0, cloud.n(), [&](label i) { return cloud.x[i].xyz().norm(); });
+    const scalar p = largestOf(0, cloud.n(), [&](label i) { return std::abs(z[4 * i + 3]); });
     return 16 * std::numeric_limits<scalar>::epsilon() * (x / dt + dt / (c_.rho * cloud.dx) * p);
 }
 
@@ -185,13 +184,12 @@ List<scalar> monolithic::guess() const
     const scalar p = has ? time_.pressuresAhead() / before : 0;
     const simd4 ratio = {u, u, u, p};
     List<scalar> z(4 * cloud.n());
-    for (label i = 0; i < cloud.n(); ++i)
-    {
+    forEach(0, cloud.n(), [&](label i) {
         simd4 up = time_.now()[i].s;
         if (has) up += ratio * (up - old->second[i].s);
         for (int a = 0; a < 3; ++a) z[4 * i + a] = cloud.uFixed[i] ? cloud.Up[i][a] : up[a];
         z[4 * i + 3] = cloud.pHeld(i) ? cloud.heldPressure(i) : up[3];
-    }
+    });
     return z;
 }
 
@@ -199,8 +197,9 @@ void monolithic::accept(const List<scalar>& z)
 {
     particleCloud& cloud = c_.cloud;
     cloud.state.erase(entries::projectedStep);
-    for (label i = 0; i < cloud.n(); ++i)
+    forEach(0, cloud.n(), [&](label i) {
         cloud.Up[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], z[4 * i + 3]};
+    });
 }
 
 // Coefficients of (7.1) and (7.2) for the present neighbours
@@ -255,8 +254,8 @@ void monolithic::keepContinuityErrors(const List<scalar>& b, const List<scalar>&
     List<scalar> Az(b.size());
     left_.resize(b.size() / 4);
     system_.apply(z, Az);
-    for (size_t i = 0; i < left_.size(); ++i)
-        left_[i] = (Az[4 * i + 3] - b[4 * i + 3]) / c_.cloud.dx;
+    forEach(0, label(left_.size()),
+            [&](label i) { left_[i] = (Az[4 * i + 3] - b[4 * i + 3]) / c_.cloud.dx; });
     ispf::printContinuityErrors(c_.cloud, left_, dt);
 }
 

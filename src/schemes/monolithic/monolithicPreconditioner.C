@@ -27,13 +27,10 @@ public:
           free_(system.dt() / system.fsi().rho),
           diagonal_(cloud_.n())
     {
-        parallelFor(size(), [&](label begin, label end) {
-            for (label i = begin; i < end; ++i)
-            {
-                scalar sum = 0;
-                forEntries(i, [&](label, scalar a, bool) { sum += a; });
-                diagonal_[i] = sum;
-            }
+        forEach(0, size(), [&](label i) {
+            scalar sum = 0;
+            forEntries(i, [&](label, scalar a, bool) { sum += a; });
+            diagonal_[i] = sum;
         });
         // rows without neighbours and rows of given pressure: any positive diagonal of the right size
         const scalar largest = *std::max_element(diagonal_.begin(), diagonal_.end());
@@ -103,8 +100,8 @@ void monolithicPreconditioner::setup()
     const particleCloud& cloud = c.cloud;
     bulk_.assign(cloud.n(), c.mu);
     if (c.structure)
-        for (label i = 0; i < cloud.nSolid(); ++i)
-            bulk_[i] += beta_ * c.structure->shearModulus() * system_.dt();
+        std::fill_n(bulk_.begin(), cloud.nSolid(),
+                    c.mu + beta_ * c.structure->shearModulus() * system_.dt());
     if (system_.tangent())
         solid_.setup(*system_.tangent(), system_.dt(), system_.diagonal(), cloud,
                      c.kernel->support());
@@ -113,8 +110,9 @@ void monolithicPreconditioner::setup()
     const laplacianRows L(system_);
     List<vector> position(cloud.n());
     List<std::uint8_t> group(cloud.n());
-    for (label i = 0; i < cloud.n(); ++i)
+    forEach(0, cloud.n(), [&](label i) {
         position[i] = cloud.x[i].xyz(), group[i] = std::uint8_t(cloud.phase[i]);
+    });
     options_.cellSize = c.kernel->support();
     if (multigrid_) multigrid_->rebuild(L, position, group);
     else multigrid_ = std::make_unique<cellMultigrid>(L, position, options_, group);
@@ -125,10 +123,8 @@ void monolithicPreconditioner::setup()
 void monolithicPreconditioner::chooseSweeps()
 {
     const particleCloud& cloud = system_.fsi().cloud;
-    const auto first = system_.diagonal().begin() + cloud.nSolid();
-    const scalar largest = maxOf(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
-        return *std::max_element(first + begin, first + end);
-    });
+    const scalar largest = largestOf(cloud.nSolid(), cloud.n(),
+                                     [&](label i) { return system_.diagonal()[i]; });
     leastEigenvalue_ = system_.fsi().rho * cloud.volume() / system_.dt() / largest;
     const scalar reach = std::max(1 - leastEigenvalue_, 1e-9);
     sweeps_ = label(std::ceil(std::acosh(1 / leaves) / std::acosh(1 / reach)));

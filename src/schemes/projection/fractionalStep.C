@@ -25,7 +25,7 @@ scalar maxSpeed(const particleCloud& cloud)
 List<vector> points(const particleCloud& cloud)
 {
     List<vector> x(cloud.n());
-    for (label i = 0; i < cloud.n(); ++i) x[i] = cloud.x[i].xyz();
+    forEach(0, cloud.n(), [&](label i) { x[i] = cloud.x[i].xyz(); });
     return x;
 }
 
@@ -60,11 +60,11 @@ void fractionalStep::setup(particleCloud& cloud, const stencil& s, const smoothi
 List<vec4> fractionalStep::corrected(const particleCloud& cloud, scalar dt)
 {
     List<scalar> p(cloud.n());
-    for (label i = 0; i < cloud.n(); ++i) p[i] = cloud.Up[i][3];
+    forEach(0, cloud.n(), [&](label i) { p[i] = cloud.Up[i][3]; });
     operator_.gradient(p, gradient_);
     List<vec4> change(gradient_.begin(), gradient_.begin() + cloud.n());
     const simd4 part = {dt / rho_, dt / rho_, dt / rho_, 0};
-    for (label i = 0; i < cloud.n(); ++i) change[i].s *= cloud.uFixed[i] ? simd4{} : part;
+    forEach(0, cloud.n(), [&](label i) { change[i].s *= cloud.uFixed[i] ? simd4{} : part; });
     return change;
 }
 
@@ -79,26 +79,25 @@ void fractionalStep::predict(particleCloud& cloud, const stencil&, const List<ve
         List<vec4> change(cloud.n(), vec4{});
         if (!first_) change = corrected(cloud, dt);
         List<vec4> dtA(a);
-        for (label i = 0; i < cloud.n(); ++i) dtA[i].s = velocity * a[i].s - change[i].s;
+        forEach(0, cloud.n(), [&](label i) { dtA[i].s = velocity * a[i].s - change[i].s; });
         projectionViscosity::laplacian lap;
         lap.of = [&](const List<vec4>& u, List<vec4>& result) {
             viscous_.apply(u, result);
-            for (vec4& v : result) v.s *= -2;
+            forEach(0, label(result.size()), [&](label i) { result[i].s *= -2; });
         };
         lap.diagonal = viscous_.sum();
         for (scalar& d : lap.diagonal) d *= 2;
         implicit_->solve(cloud, lap, dtA, dt * nu_);
         sticks_.assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
-        for (label i = 0; i < cloud.n(); ++i) cloud.Up[i].s += change[i].s;
+        forEach(0, cloud.n(), [&](label i) { cloud.Up[i].s += change[i].s; });
         return;
     }
     sticks_ = before_;
     cloud.fillGhosts(cloud.Up, false);
     List<vec4> lap;
     viscous_.apply(cloud.Up, lap);
-    parallelFor(cloud.n(), [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-            if (!cloud.uFixed[i]) cloud.Up[i].s += velocity * (a[i].s - 2 * nu_ * lap[i].s);
+    forEach(0, cloud.n(), [&](label i) {
+        if (!cloud.uFixed[i]) cloud.Up[i].s += velocity * (a[i].s - 2 * nu_ * lap[i].s);
     });
 }
 
@@ -115,7 +114,7 @@ List<scalar> fractionalStep::divergence(particleCloud& cloud) const
     List<scalar> div(cloud.n(), 0);
     pair_.divergence(cloud.Up, div);
     const List<scalar>& walls = pair_.wallFlux();
-    for (label i = 0; i < cloud.n(); ++i) div[i] += walls[i];
+    forEach(0, cloud.n(), [&](label i) { div[i] += walls[i]; });
     return div;
 }
 
@@ -126,11 +125,10 @@ void fractionalStep::project(particleCloud& cloud, const stencil& s, const List<
     f_ = divergence(cloud), source_ = q;
     source_.resize(n, 0);
     loses_ = leaves() > 0 || first_ ? sphc::gradSquaredTrace(s, cloud.Up) : List<scalar>();
-    for (label i = 0; i < n; ++i)
-    {
+    forEach(0, n, [&](label i) {
         if (leaves() > 0 && !cloud.uFixed[i]) source_[i] += dt * leaves() * loses_[i];
         f_[i] = -rho_ / dt * (f_[i] - source_[i]);
-    }
+    });
     if (first_) startPressure(cloud);
     solvePressure(cloud, f_, cellSize, dt);
     correct(cloud, dt);
@@ -160,16 +158,13 @@ void fractionalStep::bookMomentum(particleCloud& cloud, scalar dt, energyLedger&
     sticks_.resize(cloud.nAll());
     cloud.fillGhosts(sticks_, false);
     viscous_.apply(sticks_, lap);
-    scalar crossed = 0, forced = 0, left = 0;
-    for (label i = 0; i < cloud.n(); ++i)
-    {
-        if (!cloud.isFree(i)) continue;
+    const auto [crossed, forced, left] = sumsOf(0, cloud.n(), [&](label i) -> std::array<scalar, 3> {
+        if (!cloud.isFree(i)) return {};
         const vector u = cloud.Up[i].xyz(), gained = u - before_[i].xyz();
         const vector viscous = -2 * dt * nu_ * lap[i].xyz(), a = dt * added_[i].xyz();
-        forced += u.dot(a);
-        crossed += (u - sticks_[i].xyz()).dot(viscous);
-        left += u.dot(gained + dt / rho_ * gradient_[i].xyz() - a - viscous);
-    }
+        return {(u - sticks_[i].xyz()).dot(viscous), u.dot(a),
+                u.dot(gained + dt / rho_ * gradient_[i].xyz() - a - viscous)};
+    });
     const scalar m = rho_ * cloud.volume();
     energy.bookFriction(viscous_.powerOf(sticks_), m * dt * nu_);
     energy[energyLedger::step] += m * crossed;
@@ -188,38 +183,35 @@ void fractionalStep::bookPressure(particleCloud& cloud, scalar dt, energyLedger&
     const scalar level = energy.level(cloud.Up);
     const List<scalar>&all = pair_.wallFlux(), &faces = pair_.faceFlux();
     div_ = divergence(cloud);
-    for (label i = 0; i < cloud.n(); ++i)
-    {
-        const scalar S = dt / rho_ * (direct[i] - damps[i]);
-        const scalar face = faces.empty() ? 0 : faces[i];
-        const scalar row = div_[i] + S;
-        cloud.takeIn(i, row);
-        energy.bookRow(i, {cloud.Up[i][3], S, row, source_[i], all[i], face, gradient_[i].xyz()},
-                       level, dt);
-    }
+    const auto takes = [&](label i) { return dt / rho_ * (direct[i] - damps[i]); };
+    cloud.takeIn([&](label i) { return div_[i] + takes(i); });
+    energy.bookRows(level, dt, [&](label i) -> energyLedger::continuityRow {
+        const scalar S = takes(i), face = faces.empty() ? 0 : faces[i];
+        return {cloud.Up[i][3], S, div_[i] + S, source_[i], all[i], face, gradient_[i].xyz()};
+    });
 }
 
 void fractionalStep::correct(particleCloud& cloud, scalar dt)
 {
     const List<vec4> change = corrected(cloud, dt);
-    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i].s -= change[i].s;
+    forEach(0, cloud.n(), [&](label i) { cloud.Up[i].s -= change[i].s; });
 }
 
 // Mean of the given pressures, 0 if there are none
 scalar fractionalStep::givenLevel(const particleCloud& cloud) const
 {
-    scalar level = 0;
-    label nGiven = 0;
-    for (label i = 0; i < cloud.n(); ++i)
-        if (cloud.pFixed[i]) level += cloud.pGiven[i], ++nGiven;
-    return nGiven > 0 ? level / nGiven : 0;
+    const auto [n, sum] = sumsOf(0, cloud.n(), [&](label i) {
+        return cloud.pFixed[i] ? std::array<scalar, 2>{1, cloud.pGiven[i]}
+                               : std::array<scalar, 2>{};
+    });
+    return n > 0 ? sum / n : 0;
 }
 
 // The first p of a case is a guess: all particles get the level of the given pressures
 void fractionalStep::startPressure(particleCloud& cloud) const
 {
     const scalar level = givenLevel(cloud);
-    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] = level;
+    forEach(0, cloud.n(), [&](label i) { cloud.Up[i][3] = level; });
 }
 
 // Solves M p = f for p, from the present p on.  The level of the given pressures is subtracted: the tolerance must not
@@ -231,7 +223,7 @@ void fractionalStep::solvePressure(particleCloud& cloud, const List<scalar>& f, 
     List<scalar> b;
     operator_.rightHandSide(f, level, b);
     p_.resize(cloud.n());
-    for (label i = 0; i < cloud.n(); ++i) p_[i] = cloud.heldPressure(i) - level;
+    forEach(0, cloud.n(), [&](label i) { p_[i] = cloud.heldPressure(i) - level; });
     const List<vector> x = points(cloud);
     const solverPerformance result = pressureSolver_->solve(
         {compact_, true, &x, cellSize, nullptr, floor(cloud, dt), &operator_}, b, p_);
@@ -242,7 +234,7 @@ void fractionalStep::solvePressure(particleCloud& cloud, const List<scalar>& f, 
             cloud.describe(worstRow(operator_, b, p_)) + ": " + result.line() +
             ". Raise maxIter in solvers.p of system/sphSolution, or reduce deltaT, and "
             "see whether a load or a motion jumps; the last written time is intact");
-    for (label i = 0; i < cloud.n(); ++i) cloud.Up[i][3] = p_[i] + level;
+    forEach(0, cloud.n(), [&](label i) { cloud.Up[i][3] = p_[i] + level; });
 }
 
 // bookPressure has stored the divergence of the final velocities in div_

@@ -46,12 +46,14 @@ void pressureOperator::apply(const List<scalar>& p, List<scalar>& y) const
 {
     const particleCloud& cloud = *cloud_;
     List<scalar> q(p);
-    for (label i = 0; i < cloud.n(); ++i)
+    forEach(0, cloud.n(), [&](label i) {
         if (cloud.pHeld(i)) q[i] = 0;
+    });
     gradient(q, g_);
     rows(y);
-    for (label i = 0; i < cloud.n(); ++i)
+    forEach(0, cloud.n(), [&](label i) {
         if (cloud.pHeld(i)) y[i] = compact_->diagonal[i] * p[i];
+    });
 }
 
 void pressureOperator::rightHandSide(const List<scalar>& f, scalar level, List<scalar>& b) const

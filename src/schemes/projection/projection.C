@@ -130,11 +130,13 @@ List<vec4> projection::accelerations(const vector& slope, List<vec4>& spring) co
         for (label i = 0; i < cloud.nSolid(); ++i) a[i].s = perMass * spring[i].s;
     }
     if (!c_.bodyForce.empty())
-        for (label i = 0; i < cloud.n(); ++i)
+        forEach(0, cloud.n(), [&](label i) {
             a[i].s += vec4::from(c_.bodyForce[cloud.zone[i]] - hydrostatic_.acceleration()).s;
-    for (label i = 0; i < cloud.n(); ++i)
+        });
+    forEach(0, cloud.n(), [&](label i) {
         if (cloud.uFixed[i]) a[i] = vec4{};
         else a[i].s -= vec4::from(slope / c_.rho).s;
+    });
     return a;
 }
 

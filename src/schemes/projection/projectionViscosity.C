@@ -33,8 +33,9 @@ public:
     void apply(const List<scalar>& x, List<scalar>& y) const override
     {
         u_ = unpacked(x);
-        for (label i = 0; i < cloud_.n(); ++i)
+        forEach(0, cloud_.n(), [&](label i) {
             if (cloud_.uFixed[i]) u_[i] = vec4{};
+        });
         cloud_.fillGhosts(u_, true);
         laplacian_.of(u_, lap_);
         parallelFor(cloud_.n(), [&](label begin, label end) {
@@ -63,7 +64,7 @@ public:
     }
     void apply(const List<scalar>& r, List<scalar>& z) const override
     {
-        for (size_t k = 0; k < r.size(); ++k) z[k] = inverse_[k / 4] * r[k];
+        forEach(0, label(r.size()), [&](label k) { z[k] = inverse_[k / 4] * r[k]; });
     }
     word name() const override { return "diagonal"; }
 
