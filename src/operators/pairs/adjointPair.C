@@ -26,9 +26,9 @@ struct view
     // a_ij of entry k.  Components from nDims on are those of the next entry
     ISPF_INLINE simd4 face(std::int64_t k) const
     {
-        float4 a;
+        simd4 a;
         std::memcpy(&a, faces.a.data() + faces.nDims * k, sizeof a);
-        return __builtin_convertvector(a, simd4);
+        return a;
     }
     simd4 inSpace() const { return simd4{1, 1, faces.nDims == 3 ? 1.0 : 0.0, 0}; }
 };
@@ -309,7 +309,7 @@ void adjointPair::gradient(const List<vec4>& phi, List<vec4>& gp) const
             }
     });
     countPairs(list_->nPairs() - list_->start[first],
-               label(sizeof(label)) + faces_.nDims * label(sizeof(float)));
+               label(sizeof(label)) + faces_.nDims * label(sizeof(scalar)));
 }
 
 void adjointPair::divergence(const List<vec4>& u, List<scalar>& div) const
@@ -338,7 +338,7 @@ void adjointPair::divergence(const List<vec4>& u, List<scalar>& div) const
             if (besideWall_[i]) div[i] += wallPart(v, h_.data(), i);
     });
     countPairs(list_->nPairs() - list_->start[first],
-               label(sizeof(label)) + faces_.nDims * label(sizeof(float)));
+               label(sizeof(label)) + faces_.nDims * label(sizeof(scalar)));
 }
 
 void adjointPair::remainder(const List<vec4>& g, List<vec4>& m, List<scalar>& direct) const

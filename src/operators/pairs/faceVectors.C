@@ -107,17 +107,16 @@ ISPF_HOT void sizeRange(const view& v, label begin, label end, scalar* size)
 }
 
 // Writes a_ij to `a` and sum_j a_ij + b_i to `left`
-ISPF_HOT void writeRange(const view& v, const vec4* b, int nDims, label begin, label end, float* a,
+ISPF_HOT void writeRange(const view& v, const vec4* b, int nDims, label begin, label end, scalar* a,
                          vec4* left)
 {
     for (label i = begin; i < end; ++i)
     {
         simd4 sum = b[i].s * inSpace;
         forNeighbours(v, v.row(i), [&](pairIndex k, label j) {
-            const float4 face = __builtin_convertvector(
-                -v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j)), float4);
-            sum += __builtin_convertvector(face, simd4);
-            float* kept = a + nDims * k;
+            const simd4 face = -v.F[k] * (v.corrected(i, j, v.way(i, j)) + v.closing(i, j));
+            sum += face;
+            scalar* kept = a + nDims * k;
             kept[0] = face[0], kept[1] = face[1];
             if (nDims == 3) kept[2] = face[2];
         });
@@ -290,7 +289,7 @@ public:
         forRanges([&](label i, label end) {
             writeRange(sight(), b.data(), faces.nDims, i, end, faces.a.data(), c.data());
         });
-        count(faces.nDims * label(sizeof(float)));
+        count(faces.nDims * label(sizeof(scalar)));
         label nClosed = 0;
         scalar squares = 0;
         for (label i = within_.first; i < cloud_.n(); ++i)

@@ -8,14 +8,13 @@ namespace ispf
 namespace
 {
 
-ISPF_HOT void applyRange(const neighbourList& list, const float* K, const vec4* phi, label begin,
+ISPF_HOT void applyRange(const neighbourList& list, const scalar* K, const vec4* phi, label begin,
                          label end, vec4* result)
 {
     for (label i = begin; i < end; ++i)
     {
-        result[i].s = sumNeighbours<among::all>(list, i, simd4{}, [&](pairIndex k, label j) {
-            return scalar(K[k]) * (phi[j].s - phi[i].s);
-        });
+        result[i].s = sumNeighbours<among::all>(
+            list, i, simd4{}, [&](pairIndex k, label j) { return K[k] * (phi[j].s - phi[i].s); });
     }
 }
 
@@ -31,11 +30,10 @@ void viscousPairs::setup(const stencil& s)
     remake(K_, s.list.index.size()), sum_.assign(s.cloud.n(), 0);
     forPairs<among::all>(s.list, 0, s.cloud.n(), [&](label i, pairIndex k, label j) {
         const scalar other = c[j] > 0 ? c[j] : c[i];
-        K_[k] = float(0.5 * (c[i] + other) * s.cloud.friction(i, j) *
-                      sphc::viscousF(s.cloud, s.list, k));
+        K_[k] = 0.5 * (c[i] + other) * s.cloud.friction(i, j) * sphc::viscousF(s.cloud, s.list, k);
         sum_[i] += K_[k];
     });
-    countPairs(s.list.nPairs(), sizeof(label) + sizeof(scalar) + sizeof(float));
+    countPairs(s.list.nPairs(), sizeof(label) + 2 * sizeof(scalar));
 }
 
 void viscousPairs::apply(const List<vec4>& phi, List<vec4>& result, label first) const
@@ -44,7 +42,7 @@ void viscousPairs::apply(const List<vec4>& phi, List<vec4>& result, label first)
     parallelFor(cloud_->n() - first, [&](label begin, label end) {
         applyRange(*list_, K_.data(), phi.data(), first + begin, first + end, result.data());
     });
-    countPairs(list_->nPairs() - list_->start[first], sizeof(label) + sizeof(float));
+    countPairs(list_->nPairs() - list_->start[first], sizeof(label) + sizeof(scalar));
 }
 
 // 2 K u_i.(u_i - u_j) is the sum of K |u_i - u_j|^2, the half of the pair, and of K (u_i + u_j).(u_i - u_j).  The second
@@ -61,7 +59,7 @@ viscousPairs::power viscousPairs::powerOf(const List<vec4>& u) const
         };
         forNeighbours<among::all>(*list_, i, [&](pairIndex k, label j) {
             const label owner = cloud.ownerOf(j);
-            const simd4 uj = u[j].s, e = scalar(K_[k]) * (ui - uj);
+            const simd4 uj = u[j].s, e = K_[k] * (ui - uj);
             const scalar all = 2 * dot(e, ui), half = dot(e, ui - uj);
             const bool clamped = owner >= 0 && cloud.uFixed[owner] && !cloud.isFluid(owner);
             if (owner >= 0 && cloud.beyondOpen(owner))
