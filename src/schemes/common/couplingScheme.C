@@ -126,7 +126,7 @@ bool couplingScheme::outletsDiffer(scalar tau) const
     return c_.walls->hasOpen() && !c_.walls->outletsAgree(c_.cloud, c_.rho, tau);
 }
 
-word couplingScheme::tooFar(scalar dt)
+word couplingScheme::tooFar(scalar dt, bool keeps)
 {
     const particleCloud& cloud = c_.cloud;
     const vector along = frame();
@@ -142,12 +142,12 @@ word couplingScheme::tooFar(scalar dt)
                                              (cloud.beyondOpen(i) && way > farthest * cloud.dx))
                 return cloud.describe(i) + " would move " + str(way / cloud.dx, 3) + " dx";
     const bool far = most > farthest * cloud.dx;
-    if (!far && !c_.time.adjustTimeStep()) return "";
+    if (!far && !keeps) return "";
     const auto [rate, i, j] = fastestDeformation(cloud, c_.list);
     if (far && !(dt * rate <= mostDeformed))
         return cloud.describe(i) + " and " + (j < cloud.n() ? cloud.describe(j) : "an image") +
                " would move against each other by " + str(dt * rate, 3) + " of their distance";
-    if (c_.time.adjustTimeStep() && most > 0)
+    if (keeps && most > 0)
         c_.cloud.state.set(entries::deformation, {dt * rate / most, mostInStrip / most});
     return "";
 }

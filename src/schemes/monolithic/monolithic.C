@@ -305,7 +305,7 @@ word monolithic::attempt(scalar t, scalar dt)
     energy_.weigh(time_.weight(),  // (7.4)
                   [&] { system_.book(start, theta_, elastic_.force(), q_, energy_); });
     if (outletsDiffer(time_.tau())) return outletsAsk;  // (4.11)
-    if (const word reason = tooFar(dt); !reason.empty()) return reason;
+    if (const word reason = tooFar(dt, c_.time.adjustTimeStep()); !reason.empty()) return reason;
     sources_.book(dt);                                                            // (5.12), (7.5)
     time_.end(cloud, energy_);                                                    // (8.42)
     system_.hydrostatic().giveBack(cloud);                                        // (1.9)
