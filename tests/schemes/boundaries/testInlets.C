@@ -162,7 +162,8 @@ scalar inside(const boxCase& b, const particleCloud& cloud)
 
 }  // namespace
 
-// Runs that differ by rounding diverge in time, by 0.2 % of the volume.  The volume must not jump, and it must not drift.  The
+// Runs that differ by rounding diverge in time: sixteen without feedback gain 0.1 to 1.1 % of the volume, 0.6 % in the mean, so
+// that a mean of few runs tells nothing.  The volume must not jump, and it must not drift.  The
 // feedback holds the kernel sums: disordered fluid has the sums of a lattice with 0.2 to 0.3 % more particles, a level that it
 // reaches within five reversals and keeps (eight runs of thirty reversals).  kicks [dx]: displacements at the start
 TEST_CASE("a flow rate that reverses ten times: the channel keeps its volume, what enters leaves")
@@ -175,7 +176,7 @@ TEST_CASE("a flow rate that reverses ten times: the channel keeps its volume, wh
     std::array<scalar, 2> gained = {0, 0};  // by feedback; with it in the last five reversals
     std::array<int, 2> runs = {0, 0};
     for (const auto& [coupling, kicks, feedback] :
-         {family{"projection", 2, 1}, family{"monolithic", 16, 1}, family{"monolithic", 3, 0}})
+         {family{"projection", 2, 1}, family{"monolithic", 16, 1}, family{"monolithic", 16, 0}})
         for (int kick = 0; kick < kicks; ++kick)
         {
             CAPTURE(coupling);
