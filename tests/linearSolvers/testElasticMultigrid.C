@@ -143,6 +143,13 @@ TEST_CASE(
     CHECK(light <= small);
 }
 
+TEST_CASE("elastic multigrid: also a solid of fewer nodes than the coarsest level may have")
+{
+    const plate p(3, 3, 10, 1);
+    CHECK(p.K.size() <= 100);
+    CHECK(p.iterations() <= 10);
+}
+
 TEST_CASE("elastic multigrid: a bar of 1 to 40, that is held at one end or floats")
 {
     CHECK(plate(4, 4, 160, 1).iterations() <= 10);

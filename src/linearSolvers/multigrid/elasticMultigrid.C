@@ -42,7 +42,8 @@ void elasticMultigrid::rebuild(const elasticSystem& system, scalar cellSize)
     const auto size = [&] { return coarse_.empty() ? finest_.size() : coarse_.back().size(); };
     scalar extent = 0;
     for (const float4& p : finest_.point) extent = std::max<scalar>({extent, p[0], p[1], p[2]});
-    for (; size() > coarsestSize && cellSize < growth * extent; cellSize *= growth)
+    for (; (coarse_.empty() || size() > coarsestSize) && cellSize < growth * extent;
+         cellSize *= growth)
     {
         elasticLevel<6> next;
         if (coarse_.empty() ? coarsen(finest_, cellSize, next)

@@ -54,13 +54,18 @@ void kernelCorrection::build(const particleCloud& cloud, const neighbourList& li
     for (label i = 0; i < n; ++i) nPoorAll += poorAll[i], nPoorSame += poorSame[i];
 }
 
+tensor kernelCorrection::inverse(const tensor& moment, scalar leastEigenvalue)
+{
+    char bounded = 0;
+    return boundedInverse(moment, leastEigenvalue, bounded);
+}
+
 tensor kernelCorrection::of(const particleCloud& cloud, const neighbourList& list, label i,
                             pairRange row, scalar leastEigenvalue)
 {
     tensor m = vector(0, 0, cloud.nDims == 2 ? 1 : 0).asDiagonal();
-    char poor = 0;
     moment(cloud, list, i, row, m);
-    return boundedInverse(m, leastEigenvalue, poor);
+    return inverse(m, leastEigenvalue);
 }
 
 List<tensor> kernelCorrection::from(const particleCloud& cloud, const neighbourList& list,

@@ -7,18 +7,38 @@ namespace ispf
 namespace
 {
 
-// Writes the solid's own gradient of p to gs, for the stabiliser
-void ownGradient(const particleCloud& cloud, const neighbourList& list, const List<tensor>& same,
-                 List<vec4>& gs)
+// Pairs of C have a tau
+scalar weightOf(const neighbourList& list, const List<scalar>& tau, pairIndex k)
 {
-    parallelFor(cloud.nSolid(), [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-        {
-            const simd4 g = sumNeighbours<among::same>(list, i, simd4{}, [&](pairIndex k, label j) {
-                return (list.F[k] * (gs[j].s[3] - gs[i].s[3])) * (cloud.x[i].s - cloud.x[j].s);
-            });
-            gs[i].setXyz(same[i] * vector(g[0], g[1], g[2]));
-        }
+    return tau[k] > 0 ? list.F[k] : 0;
+}
+
+// B_i of the solid's own gradient, over the pairs of C
+void ownInverses(const particleCloud& cloud, const neighbourList& list, const List<scalar>& tau,
+                 List<tensor>& B)
+{
+    const tensor start = vector(0, 0, cloud.nDims == 2 ? 1 : 0).asDiagonal();
+    B.resize(cloud.nSolid());
+    forEach(0, cloud.nSolid(), [&](label i) {
+        tensor M = start;
+        forNeighbours<among::same>(list, i, [&](pairIndex k, label j) {
+            const vector d = cloud.x[i].xyz() - cloud.x[j].xyz();
+            M -= weightOf(list, tau, k) * d * d.transpose();
+        });
+        B[i] = kernelCorrection::inverse(M);
+    });
+}
+
+// Writes the solid's own gradient of p to gs, for the stabiliser
+void ownGradient(const particleCloud& cloud, const neighbourList& list, const List<scalar>& tau,
+                 const List<tensor>& B, List<vec4>& gs)
+{
+    forEach(0, cloud.nSolid(), [&](label i) {
+        const simd4 g = sumNeighbours<among::same>(list, i, simd4{}, [&](pairIndex k, label j) {
+            const scalar dp = gs[j].s[3] - gs[i].s[3];
+            return (weightOf(list, tau, k) * dp) * (cloud.x[i].s - cloud.x[j].s);
+        });
+        gs[i].setXyz(B[i] * vector(g[0], g[1], g[2]));
     });
 }
 
@@ -46,7 +66,7 @@ void coupledRows::setup(particleCloud& cloud, const neighbourList& list, const k
                         const smoothingKernel& kernel, const volumeConstraint* volume,
                         const solidSurface* surface)
 {
-    cloud_ = &cloud, list_ = &list, B_ = &B, volume_ = volume, surface_ = surface;
+    cloud_ = &cloud, list_ = &list, volume_ = volume, surface_ = surface;
     List<vec4> b;
     List<tensor> moment;
     if (surface) surface->shares(b, moment);
@@ -61,9 +81,11 @@ void coupledRows::setTau(const List<scalar>& tau, scalar fluidTau)
     if (nSolid == 0) return;
     pairTau_.resize(list_->start[nSolid]);
     forPairs<among::same>(*list_, 0, nSolid, [&](label i, pairIndex k, label j) {
-        const scalar a = tau[i], b = tau[cloud_->ownerOf(j)];
-        pairTau_[k] = 2 * a * b / (a + b);
+        const label source = cloud_->ownerOf(j);
+        const scalar a = tau[i], b = tau[source];
+        pairTau_[k] = acts(i) && acts(source) ? 2 * a * b / (a + b) : 0;
     });
+    ownInverses(*cloud_, *list_, pairTau_, ownB_);
 }
 
 void coupledRows::gradient(const List<vec4>& phi, List<vec4>& gp) const
@@ -81,9 +103,8 @@ void coupledRows::solidGradient(const List<vec4>& phi, List<vec4>& gp) const
     volume_->addStress(phi, stress_);
     volume_->gradient().forces(stress_, force_);
     const scalar perVolume = 1 / cloud_->volume();
-    forEach(0, cloud_->nSolid(), [&](label i) {
-        gp[i] = vec4::from(perVolume * (load_[i].xyz() - force_[i].xyz()));
-    });
+    forEach(0, cloud_->nSolid(),
+            [&](label i) { gp[i] = vec4::from(perVolume * (load_[i].xyz() - force_[i].xyz())); });
 }
 
 void coupledRows::divergence(const List<vec4>& phi, List<scalar>& div) const
@@ -100,11 +121,22 @@ void coupledRows::solidStabiliser(List<vec4>& gs, List<scalar>& cp) const
 {
     cp.resize(cloud_->n());
     if (!volume_) return;
-    ownGradient(*cloud_, *list_, B_->same, gs);
+    ownGradient(*cloud_, *list_, pairTau_, ownB_, gs);
     cloud_->fillGradientGhosts(gs);
     parallelFor(cloud_->nSolid(), [&](label begin, label end) {
         solidStabiliserRange(*list_, cloud_->x.data(), pairTau_.data(), begin, end, gs.data(),
                              cp.data());
+    });
+}
+
+void coupledRows::solidDiagonals(const List<scalar>& tau, List<scalar>& DG, List<scalar>& C) const
+{
+    volume_->diagonal(tau, DG);
+    C.resize(DG.size());
+    forEach(0, cloud_->nSolid(), [&](label i) {
+        C[i] = sumNeighbours<among::same>(*list_, i, scalar(0), [&](pairIndex k, label) {
+            return -2 * list_->F[k] * pairTau_[k];
+        });
     });
 }
 
@@ -125,7 +157,7 @@ void coupledRows::continuity(const List<vec4>& phi, List<vec4>& gs, List<scalar>
     });
     if (!volume_) return;
     solidStabiliser(gs, direct_);
-    for (label i = 0; i < nSolid; ++i) rows[i] -= direct_[i];
+    forEach(0, nSolid, [&](label i) { rows[i] = acts(i) ? rows[i] - direct_[i] : 0; });
 }
 
 }  // namespace ispf

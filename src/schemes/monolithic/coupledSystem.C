@@ -14,9 +14,8 @@ void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solid
     const scalar inertia = c_.rho * cloud.volume() / dt;
     // clamped particles have no tangent among themselves: they get the mean diagonal of free ones
     const auto [nFree, sum] = sumsOf(0, K ? cloud.nSolid() : 0, [&](label i) {
-        return cloud.uFixed[i]
-                   ? std::array<scalar, 2>{}
-                   : std::array<scalar, 2>{1, K->diagonal[i].trace() / cloud.nDims};
+        return cloud.uFixed[i] ? std::array<scalar, 2>{}
+                               : std::array<scalar, 2>{1, K->diagonal[i].trace() / cloud.nDims};
     });
     const scalar meanTangent = nFree > 0 ? sum / nFree : 0;
     diagonal_.resize(cloud.n()), tau_.resize(cloud.n());
@@ -146,7 +145,7 @@ void coupledSystem::rightHandSide(scalar theta, const List<vec4>& springForce,
     addSolidMemory(cloud.Up, theta, known);
     momentumSide(springForce, lap_, drop, b);
     forEach(0, cloud.n(), [&](label i) {
-        if (!cloud.pHeld(i)) b[4 * i + 3] = cloud.dx * (q[i] - known[i]);
+        if (!cloud.pHeld(i)) b[4 * i + 3] = rows_.acts(i) ? cloud.dx * (q[i] - known[i]) : 0;
     });
     enclosed_.balance(b);
 }

@@ -198,7 +198,8 @@ void monolithic::accept(const List<scalar>& z)
     particleCloud& cloud = c_.cloud;
     cloud.state.erase(entries::projectedStep);
     forEach(0, cloud.n(), [&](label i) {
-        cloud.Up[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], z[4 * i + 3]};
+        const scalar p = system_.rows().acts(i) ? z[4 * i + 3] : 0;
+        cloud.Up[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], p};
     });
 }
 

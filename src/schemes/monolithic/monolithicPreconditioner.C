@@ -14,15 +14,18 @@ namespace
 
 // Part of an error of the fluid's velocity that the sweeps may leave
 constexpr scalar leaves = 0.3;
+// Share of C in the diagonal of the solid's S; C acts on rough pressures alone
+constexpr scalar ofStabiliser = 0.2;
 
 // Row i of L: sum_j -2 F_ij tau_ij (p_i - p_j).  Images count for their source, rigid neighbours are left out (dp/dn = 0).
-// The row of a given pressure has its diagonal alone
+// The row of a given pressure has its diagonal alone, and so has that of a particle without an equation for p
 class laplacianRows : public matrixRows
 {
 public:
     explicit laplacianRows(const coupledSystem& system)
         : cloud_(system.fsi().cloud),
           list_(system.fsi().list),
+          rows_(system.rows()),
           tau_(system.tau()),
           free_(system.dt() / system.fsi().rho),
           diagonal_(cloud_.n())
@@ -61,7 +64,7 @@ private:
         if (cloud_.pHeld(i)) return;
         forNeighbours<among::connected>(list_, i, [&](pairIndex k, label neighbour) {
             const label j = cloud_.ownerOf(neighbour);
-            if (j == i) return;
+            if (j == i || !rows_.acts(i) || !rows_.acts(j)) return;
             const bool same = k < list_.mid[i];
             entry(j, -2 * list_.F[k] * (same ? free_ : tauBeside(i, j)), same);
         });
@@ -74,6 +77,7 @@ private:
 
     const particleCloud& cloud_;
     const neighbourList& list_;
+    const coupledRows& rows_;
     const List<scalar>& tau_;
     scalar free_;
     List<scalar> diagonal_;
@@ -99,9 +103,7 @@ void monolithicPreconditioner::setup()
     const fsiCase& c = system_.fsi();
     const particleCloud& cloud = c.cloud;
     bulk_.assign(cloud.n(), c.mu);
-    if (c.structure)
-        std::fill_n(bulk_.begin(), cloud.nSolid(),
-                    c.mu + beta_ * c.structure->shearModulus() * system_.dt());
+    if (c.structure) stiffen();
     if (system_.tangent())
         solid_.setup(*system_.tangent(), system_.dt(), system_.diagonal(), cloud,
                      c.kernel->support());
@@ -118,13 +120,30 @@ void monolithicPreconditioner::setup()
     else multigrid_ = std::make_unique<cellMultigrid>(L, position, options_, group);
 }
 
+// Beside a clamp few particles yield to the pressure, and S is small there.  The diagonal of S shows it, section 7.8
+void monolithicPreconditioner::stiffen()
+{
+    const particleCloud& cloud = system_.fsi().cloud;
+    List<scalar> S, C;
+    system_.rows().solidDiagonals(system_.tau(), S, C);
+    const auto [sum, nFree] = sumsOf(0, cloud.nSolid(), [&](label i) -> std::array<scalar, 2> {
+        S[i] += ofStabiliser * C[i];
+        if (cloud.uFixed[i]) return {};
+        return {S[i], 1};
+    });
+    const scalar mean = sum / std::max<scalar>(nFree, 1);
+    const scalar modulus = beta_ * system_.fsi().structure->shearModulus() * system_.dt();
+    forEach(0, cloud.nSolid(),
+            [&](label i) { bulk_[i] = S[i] > 0 ? system_.fsi().mu + modulus * mean / S[i] : 0; });
+}
+
 // Eigenvalues of A_ii^-1 A lie in [least, 2 - least] in the fluid, by Gershgorin's circles.  After m sweeps Chebyshev's
 // iteration leaves 1/T_m(1/(1 - least)) of an error, section 7.8
 void monolithicPreconditioner::chooseSweeps()
 {
     const particleCloud& cloud = system_.fsi().cloud;
-    const scalar largest = largestOf(cloud.nSolid(), cloud.n(),
-                                     [&](label i) { return system_.diagonal()[i]; });
+    const scalar largest =
+        largestOf(cloud.nSolid(), cloud.n(), [&](label i) { return system_.diagonal()[i]; });
     leastEigenvalue_ = system_.fsi().rho * cloud.volume() / system_.dt() / largest;
     const scalar reach = std::max(1 - leastEigenvalue_, 1e-9);
     sweeps_ = label(std::ceil(std::acosh(1 / leaves) / std::acosh(1 / reach)));
@@ -180,7 +199,7 @@ void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) con
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
-            div_[i] -= r[4 * i + 3] / cloud.dx;
+            div_[i] = system_.rows().acts(i) ? div_[i] - r[4 * i + 3] / cloud.dx : 0;
             b_[i] = cloud.pHeld(i) ? 0 : -div_[i];
         }
     });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volumeConstraint.H"
-#include "execution.H"
+#include "forPairs.H"
 
 namespace ispf
 {
@@ -8,6 +8,17 @@ namespace ispf
 tensor cofactorOf(const tensor& F)
 {
     return F.determinant() * F.inverse().transpose();
+}
+
+volumeConstraint::volumeConstraint(const structureModel& s)
+    : gradient_(s.gradient()), ref_(s.reference()), acts_(s.n())
+{
+    forEach(0, s.n(), [&](label i) {
+        bool acts = !ref_.fixed[i];
+        forNeighbours<among::all>(gradient_.neighbours(), i,
+                                  [&](pairIndex, label j) { acts = acts || !ref_.fixed[j]; });
+        acts_[i] = acts;
+    });
 }
 
 void volumeConstraint::setup(const List<tensor>& F)
@@ -27,6 +38,24 @@ void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ, List<tensor>&
     gradient_.applyLinear(u, dF);
     dJ.resize(dF.size());
     for (size_t i = 0; i < dF.size(); ++i) dJ[i] = cofactor_[i].cwiseProduct(dF[i]).sum();
+}
+
+// D u_i = sum_j g_ij.(u_j - u_i) with g_ij = w_ij cof F_i B_i R_ij: p_i acts on j with the force V g_ij
+void volumeConstraint::diagonal(const List<scalar>& tau, List<scalar>& DG) const
+{
+    DG.resize(acts_.size());
+    forEach(0, label(acts_.size()), [&](label i) {
+        const tensor A = cofactor_[i] * gradient_.inverseMoment(i);
+        vector own = vector::Zero();
+        scalar sum = 0;
+        forNeighbours<among::all>(gradient_.neighbours(), i, [&](pairIndex k, label j) {
+            const vector g =
+                gradient_.weight(k) * (A * gradient_.neighbours().separation(ref_, i, k));
+            own += g;
+            if (!ref_.fixed[j]) sum += tau[j] * g.squaredNorm();
+        });
+        DG[i] = sum + (ref_.fixed[i] ? 0 : tau[i] * own.squaredNorm());
+    });
 }
 
 // F is linear in time and its cofactor at most quadratic: Simpson's rule is exact

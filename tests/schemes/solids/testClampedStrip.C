@@ -20,7 +20,8 @@ struct strip
 {
     int layers, length;   // spacings
     scalar acceleration;  // downwards
-    static constexpr int clamp = 4, beside = 8;
+    int clamp = 4;        // spacings that are clamped before the strip
+    static constexpr int beside = 8;
 
     scalar H() const { return layers * dx; }
     scalar L() const { return length * dx; }
@@ -36,12 +37,12 @@ struct strip
 
 void place(caseOnDisk& files, const strip& s)
 {
-    const int nx = strip::clamp + s.length + strip::beside, ny = s.layers + 2 * strip::beside;
+    const int nx = s.clamp + s.length + strip::beside, ny = s.layers + 2 * strip::beside;
     files.fill(nx, ny, dx);
     particleTable& t = files.particles();
     const auto zoneOf = [&](const vector& x) {
         const bool across = std::abs(x[1] - 0.5 * ny * dx) < 0.5 * s.H();
-        return !across || x[0] > strip::clamp * dx + s.L() ? 2 : x[0] < strip::clamp * dx ? 0 : 1;
+        return !across || x[0] > s.clamp * dx + s.L() ? 2 : x[0] < s.clamp * dx ? 0 : 1;
     };
     List<vector> sorted;
     t.integers["zone"].clear();
@@ -77,26 +78,43 @@ struct bent
     scalar speed;        // at the end, in spacings a step
 };
 
+// The case of a strip, and the coupling that solves it
+struct stripCase
+{
+    caseOnDisk files{"clampedStrip"};
+    capturedLog log;
+    std::unique_ptr<Time> time;
+    std::unique_ptr<fsiCase> c;
+    std::unique_ptr<couplingScheme> scheme;
+
+    explicit stripCase(const strip& s, const word& structure = links)
+    {
+        place(files, s);
+        files.control =
+            "startTime 0; endTime 100; deltaT 1; writeControl timeStep; writeInterval 1e6;";
+        files.solution = "coupling monolithic;";
+        files.properties =
+            "rho 1000; mu 0.1; bodyForce { strip (0 " + str(-s.acceleration) + " 0); }";
+        files.write();
+        setContent(files.path() + "/constant/structureProperties", structure);
+        time = std::make_unique<Time>(files.path());
+        c = std::make_unique<fsiCase>(*time);
+        scheme = couplingScheme::New(*c);
+    }
+    void run(label steps) { runSteps(*c, *scheme, dt, steps); }
+};
+
 bent bend(const strip& s, const word& structure = links)
 {
-    caseOnDisk files("clampedStrip");
-    place(files, s);
-    files.control = "startTime 0; endTime 100; deltaT 1; writeControl timeStep; writeInterval 1e6;";
-    files.solution = "coupling monolithic;";
-    files.properties = "rho 1000; mu 0.1; bodyForce { strip (0 " + str(-s.acceleration) + " 0); }";
-    files.write();
-    setContent(files.path() + "/constant/structureProperties", structure);
-    capturedLog log;
-    Time time(files.path());
-    fsiCase c(time);
-    const auto scheme = couplingScheme::New(c);
-    runSteps(c, *scheme, dt, 60);
+    stripCase bending(s, structure);
+    bending.run(60);
+    const fsiCase& c = *bending.c;
     const auto overBeam = [&](int column) {
         scalar sum = 0;
         for (label i = 0; i < c.cloud.nSolid(); ++i)
         {
             const vector x0 = c.cloud.vectors.at("x0")[i].xyz();
-            if (int(x0[0] / dx) == strip::clamp + column) sum += x0[1] - c.cloud.x[i][1];
+            if (int(x0[0] / dx) == s.clamp + column) sum += x0[1] - c.cloud.x[i][1];
         }
         return sum / s.layers / s.deflection((column + 0.5) * dx);
     };
@@ -138,6 +156,52 @@ TEST_CASE(
         CHECK(bend({layers, 5 * layers, 7.0 / layers}, material).tip ==
               doctest::Approx(tip).epsilon(0.015));
     }
+}
+
+TEST_CASE("deep in a clamp the solid has no pressure, and none is needed")
+{
+    const strip s = {4, 20, 1.75, 12};
+    List<vec4> end[2];
+    for (const scalar before : {0.0, 1e6})
+    {
+        stripCase bending(s);
+        particleCloud& cloud = bending.c->cloud;
+        for (label i = 0; i < cloud.nSolid(); ++i)
+            if (cloud.x[i][0] < 8 * dx) cloud.Up[i][3] = before;
+        bending.run(2);
+        end[before > 0].assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
+        scalar deep = 0, shallow = 0;
+        for (label i = 0; i < cloud.nSolid(); ++i)
+        {
+            const scalar depth = s.clamp - cloud.x[i][0] / dx, p = std::abs(cloud.Up[i][3]);
+            if (depth > 3) deep = std::max(deep, p);
+            else if (depth > 0) shallow = std::max(shallow, p);
+        }
+        CHECK(deep == 0);
+        CHECK(shallow > 0.1 * rho * s.acceleration * s.L());
+    }
+    for (size_t i = 0; i < end[0].size(); ++i)
+        for (int a = 0; a < 4; ++a) CHECK(end[0][i][a] == end[1][i][a]);
+}
+
+// Iterations of FGMRES per step, in the mean of 30, the last of which are nearly at rest
+scalar iterations(const strip& s)
+{
+    constexpr label steps = 30;
+    stripCase bending(s);
+    bending.run(steps);
+    std::istringstream text(bending.log.text());
+    scalar n = 0;
+    for (word w; text >> w;)
+        if (w == "Iterations" && text >> w) n += std::stoi(w);
+    return n / steps;
+}
+
+// 20 and more before the clamp's pressure was left to those that act, and with solids too small to be coarsened
+TEST_CASE("a long clamp, or a small solid, costs no iterations")
+{
+    for (const int clamp : {4, 16}) CHECK(iterations({4, 20, 1.75, clamp}) < 10);
+    CHECK(iterations({8, 20, 1.75, 16}) < 15);
 }
 
 TEST_CASE("a solid that is clamped throughout has no limit of its own, and writes none")
