@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Usage: springNetwork.py [-case folder] [-inner A -outer B]
-What the spring network of constant/structureProperties is by its own law, whatever the solver does with it: its shear
-modulus, and the pressure that inflates a long cylinder (plane strain) and a sphere of rest radii A and B [m], beside
+Prints the law of the spring network in constant/structureProperties, independent of the solver: its shear modulus, and
+the pressure that inflates a long cylinder (plane strain) and a sphere of rest radii A and B [m], beside
 that of a neo-Hookean wall of the same modulus.  Python's standard library alone.
 
 Links are linear springs, k (d - d0).  In an affine deformation F a particle of volume V has the energy density

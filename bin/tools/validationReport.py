@@ -127,9 +127,9 @@ def costs(gathered):
 def expectations(gathered):
     """One page: of each tutorial the errors closest to their tolerances, and what they cost"""
     text = ["", "# What to expect", "",
-            "Of each family of cases the two errors that are the hardest to keep within their tolerances, the cheapest run "
-            f"first: *variant* error (particles, CPU seconds on this machine). Of more than {RUNS_SHOWN} runs those that no cheaper one "
-            "equals within a tenth, and behind a semicolon the one with the largest error. All runs: the tables before.", "",
+            "Each family of cases has two lines: the errors that are the hardest to keep within their tolerances. The cheapest run comes "
+            f"first: *variant* error (particles, CPU seconds on this machine). A family with more than {RUNS_SHOWN} runs shows those that no "
+            "cheaper run equals within a tenth, and behind a semicolon the run with the largest error. All runs: the tables before.", "",
             "| family | error | by resolution and cost |", "|---|---|---|"]
     shown = lambda error, variant, row: f"*{variant}* {error:.2g} ({row[9]}, {rounded(row[11])} s)"
     for tutorial, variants, quantities in families(gathered):

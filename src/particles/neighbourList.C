@@ -12,11 +12,6 @@ namespace ispf
 namespace
 {
 
-scalar squareOf(const simd4& d)
-{
-    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-}
-
 // All points sorted by row-major search cell, in single precision relative to the lowest corner.  The
 // candidates of a particle are nine contiguous runs.
 struct searchGrid
@@ -126,7 +121,7 @@ struct rowBuilder
     void candidate(label i, label j)
     {
         if (j == i) return;
-        const scalar square = squareOf(cloud.x[i].s - cloud.x[j].s);
+        const scalar square = magSqr(cloud.x[i].s - cloud.x[j].s);
         if (square >= reach * reach || (visible && !visible(i, j))) return;
         if (square == 0)
             throw fatalError("Particle " + std::to_string(cloud.id[i]) + " and " +
@@ -223,7 +218,7 @@ void neighbourList::weigh(const particleCloud& cloud, const smoothingKernel& ker
             const label nPairs = label(start[i + 1] - first);
             r2.resize(nPairs);
             forNeighbours<among::all>(*this, i, [&](pairIndex k, label j) {
-                r2[k - first] = squareOf(cloud.x[i].s - cloud.x[j].s);
+                r2[k - first] = magSqr(cloud.x[i].s - cloud.x[j].s);
             });
             kernel.F(r2.data(), F.data() + first, nPairs);
             forNeighbours<among::all>(*this, i, [&](pairIndex k, label j) {

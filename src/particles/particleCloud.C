@@ -163,53 +163,53 @@ bool particleCloud::hasRigid() const
                        [](const ghostOwner& o) { return o.index < 0; });
 }
 
-void particleCloud::fillGhosts(List<vec4>& f, bool homogeneous) const
+// The one place where values of owned particles reach their ghosts: image(g, rule, value of the owner) or rigid(g)
+template <class Image, class Rigid>
+void particleCloud::fill(List<vec4>& f, const Image& image, const Rigid& rigid) const
 {
     f.resize(x.size());
-    parallelFor(nGhosts(), [&](label begin, label end) {
-        const simd4 zero = {};
-        for (label g = begin; g < end; ++g)
-        {
-            simd4 value = homogeneous ? zero : offset_[g].s;
-            if (const label source = owner_[g].index; source >= 0)
-            {
-                const simd4 s = f[source].s;
-                const scalar* M = rules_[rule_[g]].M.data();  // column-major
-                for (int c = 0; c < 4; ++c)
-                    value += s[c] * simd4{M[4 * c], M[4 * c + 1], M[4 * c + 2], M[4 * c + 3]};
-            }
-            f[n_ + g].s = value;
-        }
+    forEach(0, nGhosts(), [&](label g) {
+        const label source = owner_[g].index;
+        f[n_ + g].s = source < 0 ? rigid(g) : image(g, rules_[rule_[g]], f[source].s);
     });
+}
+
+// M s
+static simd4 product(const ghostRule& rule, const simd4& s)
+{
+    const scalar* M = rule.M.data();  // column-major
+    simd4 sum = {};
+    for (int c = 0; c < 4; ++c)
+        sum += s[c] * simd4{M[4 * c], M[4 * c + 1], M[4 * c + 2], M[4 * c + 3]};
+    return sum;
+}
+
+void particleCloud::fillGhosts(List<vec4>& f, bool homogeneous) const
+{
+    const auto b = [&](label g) { return homogeneous ? simd4{} : offset_[g].s; };
+    fill(
+        f, [&](label g, const ghostRule& rule, const simd4& s) { return b(g) + product(rule, s); },
+        b);
 }
 
 void particleCloud::fillContinuityGhosts(List<vec4>& f) const
 {
-    fillGhosts(f, false);
-    parallelFor(nGhosts(), [&](label begin, label end) {
-        for (label g = begin; g < end; ++g)
-        {
-            if (owner_[g].index < 0) continue;
-            const ghostRule& rule = rules_[rule_[g]];
-            if (rule.R == rule.M.topLeftCorner<3, 3>()) continue;
-            f[n_ + g].setXyz(rule.R * f[owner_[g].index].xyz() + through_[g]);
-        }
-    });
+    const auto b = [&](label g) { return offset_[g].s; };
+    const auto image = [&](label g, const ghostRule& rule, const simd4& s) {
+        vec4 value{b(g) + product(rule, s)};
+        if (rule.R != rule.M.topLeftCorner<3, 3>())
+            value.setXyz(rule.R * vector(s[0], s[1], s[2]) + through_[g]);
+        return value.s;
+    };
+    fill(f, image, b);
 }
 
 void particleCloud::fillGradientGhosts(List<vec4>& f) const
 {
-    f.resize(x.size());
-    parallelFor(nGhosts(), [&](label begin, label end) {
-        for (label g = begin; g < end; ++g)
-        {
-            f[n_ + g] = vec4{};
-            if (owner_[g].index < 0) continue;
-            const vec4& s = f[owner_[g].index];
-            const ghostRule& rule = rules_[rule_[g]];
-            f[n_ + g] = vec4::from(rule.R * s.xyz(), rule.M(3, 3) * s[3]);
-        }
-    });
+    const auto image = [](label, const ghostRule& rule, const simd4& s) {
+        return vec4::from(rule.R * vector(s[0], s[1], s[2]), rule.M(3, 3) * s[3]).s;
+    };
+    fill(f, image, [](label) { return simd4{}; });
 }
 
 scalar particleCloud::maxSpeed() const

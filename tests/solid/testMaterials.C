@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every material of the table must fulfil.  A new material adds its entries to `samples`
+// Checks for every material of the table.  A new material adds its entries to `samples`
 #include "errorOf.H"
 #include "material.H"
 

@@ -56,8 +56,7 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
             {
                 const label i = first + k;
                 meets[k] = anyNeighbour<among::media>(list, i, [&](pairIndex, label j) {
-                    const simd4 d = cloud.x[i].s - cloud.x[j].s, dd = d * d;
-                    return dd[0] + dd[1] + dd[2] < reach * reach &&
+                    return magSqr(cloud.x[i].s - cloud.x[j].s) < reach * reach &&
                            approachOf(cloud, i, j, closest, dt).lacks > 0;
                 });
             }

@@ -11,18 +11,13 @@ pairDeformation fastestDeformation(const particleCloud& cloud, const neighbourLi
 {
     List<vec4> u(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
     cloud.fillGradientGhosts(u);
-    const auto lengthSqr = [](simd4 a) {
-        const simd4 aa = a * a;
-        return aa[0] + aa[1] + aa[2];
-    };
     const auto faster = [](scalar a, scalar b) { return a > b || (a != a && b == b); };
     // rate holds the square
     const auto parts = parallelParts(cloud.n(), [&](label begin, label end) {
         pairDeformation most;
         for (label i = begin; i < end; ++i)
             forNeighbours<among::media>(list, i, [&](pairIndex, label j) {
-                const scalar rate =
-                    lengthSqr(u[i].s - u[j].s) / lengthSqr(cloud.x[i].s - cloud.x[j].s);
+                const scalar rate = magSqr(u[i].s - u[j].s) / magSqr(cloud.x[i].s - cloud.x[j].s);
                 if (faster(rate, most.rate)) most = {rate, i, j};
             });
         return most;

@@ -113,16 +113,18 @@ void cellClosing::setDiagonal()
         for (const beside& b : besideStrip_[k]) sum += b.w;
         for (const label i : strips_[k].members) diagonal_[i] = sum > 0 ? float(square * sum) : 1;
     }
-    for (label i = first; i < n; ++i)
+    forEach(first, n, [&](label i) {
         ofBlock[i] = (closed_[i] ? regular : stripLevel) * weight_[i] * diagonal_[i] / square;
+    });
     blocks_ = std::make_unique<blockLaplacian>(
         blockLaplacian::graph{cloud_, list_, within_, bodies_, closed_, inStrip_}, ofBlock);
 }
 
 void cellClosing::admit(List<vec4>& psi) const
 {
-    for (label i = within_.first; i < cloud_.n(); ++i)
+    forEach(within_.first, cloud_.n(), [&](label i) {
         if (!active(i)) psi[i] = vec4{};
+    });
     for (const strip& s : strips_)
     {
         simd4 sum = {};
@@ -134,6 +136,7 @@ void cellClosing::admit(List<vec4>& psi) const
 void cellClosing::removeMeans(List<vec4>& f, bool drained) const
 {
     List<vec4> mean(bodies_.n);  // [3]: number of particles
+    // not by blocks: drops may be as many as particles, and each block would have sums of all
     for (label i = within_.first; i < cloud_.n(); ++i)
         if (closed_[i]) mean[bodies_.of[i]].s += f[i].s * inSpace + simd4{0, 0, 0, 1};
     const tensor free = cloud_.freeDirections();
@@ -142,9 +145,8 @@ void cellClosing::removeMeans(List<vec4>& f, bool drained) const
         const scalar count = drained || !drained_[body] ? mean[body][3] : 0;
         mean[body] = count > 0 ? vec4::from(free * mean[body].xyz() / count) : vec4{};
     }
-    parallelFor(cloud_.n() - within_.first, [&](label from, label to) {
-        for (label i = within_.first + from; i < within_.first + to; ++i)
-            if (closed_[i]) f[i].s -= mean[bodies_.of[i]].s;
+    forEach(within_.first, cloud_.n(), [&](label i) {
+        if (closed_[i]) f[i].s -= mean[bodies_.of[i]].s;
     });
 }
 

@@ -124,12 +124,6 @@ ISPF_HOT void writeRange(const view& v, const vec4* b, int nDims, label begin, l
     }
 }
 
-scalar squareOf(const vec4& a)
-{
-    const simd4 p = a.s * a.s;
-    return p[0] + p[1] + p[2];
-}
-
 // The steps of faceVectors::build
 class builder
 {
@@ -290,14 +284,13 @@ public:
             writeRange(sight(), b.data(), faces.nDims, i, end, faces.a.data(), c.data());
         });
         count(faces.nDims * label(sizeof(scalar)));
-        label nClosed = 0;
-        scalar squares = 0;
-        for (label i = within_.first; i < cloud_.n(); ++i)
-        {
-            if (closed_[i]) squares += squareOf(c[i]), ++nClosed;
-            else c[i] = vec4{};
-        }
-        result.defect = cloud_.dx * std::sqrt(squares / std::max<label>(1, nClosed));
+        const auto [squares, nClosed] =
+            sumsOf(within_.first, cloud_.n(), [&](label i) -> std::array<scalar, 2> {
+                if (closed_[i]) return {magSqr(c[i].s), 1};
+                c[i] = vec4{};
+                return {};
+            });
+        result.defect = cloud_.dx * std::sqrt(squares / std::max<scalar>(1, nClosed));
         closing_->removeMeans(c, true);
         faces.poor = poor_, faces.bodies = bodies_;
     }

@@ -35,8 +35,11 @@ void enclosedFluid::setup(const solidGradient& gradientOf, const solidSurface* s
     if (std::all_of(rootOf.begin(), rootOf.end(), [](label r) { return r < 0; })) return;
 
     const sweptRates swept = c_.walls->swept(cloud);
-    List<label> count(nz, 0);
-    for (label i = cloud.nSolid(); i < cloud.n(); ++i) ++count[cloud.zone[i]];
+    const List<scalar> count =
+        blockSums(cloud.n() - cloud.nSolid(), nz, [&](label begin, label end, scalar* of) {
+            std::fill_n(of, nz, 0);
+            for (label k = begin; k < end; ++k) ++of[cloud.zone[cloud.nSolid() + k]];
+        });
     for (label r = 0; r < nz; ++r)
     {
         body b;
@@ -44,7 +47,7 @@ void enclosedFluid::setup(const solidGradient& gradientOf, const solidSurface* s
         for (label z = r; z < nz; ++z)
         {
             if (rootOf[z] != r) continue;
-            b.zones.push_back(z), b.isZone[z] = 1, b.n += count[z];
+            b.zones.push_back(z), b.isZone[z] = 1, b.n += label(count[z]);
             bodyOf_[z] = label(bodies_.size());
         }
         if (b.n > 0) bodies_.push_back(std::move(b));
@@ -67,9 +70,9 @@ bool enclosedFluid::loadsItself(const solidGradient& gradientOf, scalar area) co
     const List<vec4> unit(cloud.nAll(), vec4{simd4{0, 0, 0, 1}});
     List<vec4> left(cloud.nSolid());
     gradientOf(unit, left);
-    scalar force = 0;
-    for (label i = 0; i < cloud.nSolid(); ++i)
-        if (!cloud.uFixed[i]) force += cloud.volume() * left[i].xyz().norm();
+    const scalar force = sumOf(0, cloud.nSolid(), [&](label i) {
+        return cloud.uFixed[i] ? 0 : cloud.volume() * left[i].xyz().norm();
+    });
     return force < balanced * area;
 }
 
@@ -84,16 +87,19 @@ void enclosedFluid::addDefect(List<scalar>& q)
     if (inactive()) return;
     const particleCloud& cloud = c_.cloud;
     const state s(cloud);
-    const auto bodyOf = [&](label i) { return bodyOf_[cloud.zone[i]]; };
-    const scalar V = cloud.volume();
-    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        if (bodyOf(i) >= 0)
-        {
-            body& b = bodies_[bodyOf(i)];
-            b.volume += V, b.added += b.free ? 0 : s.defect[cloud.zone[i]] * V;
-        }
-    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        if (bodyOf(i) >= 0) q[i] += bodies_[bodyOf(i)].added / bodies_[bodyOf(i)].volume;
+    for (body& b : bodies_)
+    {
+        b.volume = b.n * cloud.volume();
+        if (b.free) continue;
+        b.added = cloud.volume() * sumOf(cloud.nSolid(), cloud.n(), [&](label i) {
+                      const label z = cloud.zone[i];
+                      return b.isZone[z] ? s.defect[z] : 0;
+                  });
+    }
+    forEach(cloud.nSolid(), cloud.n(), [&](label i) {
+        const label of = bodyOf_[cloud.zone[i]];
+        if (of >= 0) q[i] += bodies_[of].added / bodies_[of].volume;
+    });
 }
 
 void enclosedFluid::account(particleCloud& cloud, scalar dt, const List<tensor>& dF,
@@ -132,16 +138,10 @@ void enclosedFluid::state::write(particleCloud& cloud) const
 template <class Counts>
 void enclosedFluid::removeMean(Counts&& counts, label n, List<scalar>& rows) const
 {
-    const auto sumRange = [&](label begin, label end) {
-        scalar sum = 0;
-        for (label i = begin; i < end; ++i)
-            if (counts(i)) sum += rows[4 * i + 3];
-        return sum;
-    };
-    const scalar mean = parallelSum(c_.cloud.n(), sumRange) / n;
-    parallelFor(c_.cloud.n(), [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-            if (counts(i)) rows[4 * i + 3] -= mean;
+    const auto counted = [&](label i) { return counts(i) ? rows[4 * i + 3] : 0; };
+    const scalar mean = sumOf(0, c_.cloud.n(), counted) / n;
+    forEach(0, c_.cloud.n(), [&](label i) {
+        if (counts(i)) rows[4 * i + 3] -= mean;
     });
 }
 
@@ -154,19 +154,13 @@ bool enclosedFluid::ofFreeBody(label i) const
 void enclosedFluid::dropLevel(List<vec4>& up) const
 {
     if (!allFree_) return;
-    const label n = c_.cloud.n(), nSolid = c_.cloud.nSolid();
-    const auto sumOf = [&](const auto& value) {
-        return parallelSum(n - nSolid, [&](label begin, label end) {
-            scalar sum = 0;
-            for (label i = nSolid + begin; i < nSolid + end; ++i)
-                if (!ofFreeBody(i)) sum += value(i);
-            return sum;
-        });
-    };
-    const scalar mean = sumOf([&](label i) { return up[i][3]; }) / sumOf([](label) { return 1; });
-    parallelFor(n, [&](label begin, label end) {
-        for (label i = begin; i < end; ++i)
-            if (!ofFreeBody(i)) up[i][3] -= mean;
+    const label n = c_.cloud.n();
+    const auto [sum, count] = sumsOf(c_.cloud.nSolid(), n, [&](label i) -> std::array<scalar, 2> {
+        if (ofFreeBody(i)) return {};
+        return {up[i][3], 1};
+    });
+    forEach(0, n, [&](label i) {
+        if (!ofFreeBody(i)) up[i][3] -= sum / count;
     });
 }
 
@@ -174,16 +168,25 @@ void enclosedFluid::keepLevel(const particleCloud& cloud, List<scalar>& z) const
 {
     // index of all particles that are in no free body, solids included
     const label others = label(bodies_.size());
-    List<scalar> change(others + 1, 0), n(others + 1, 0);
     const auto groupOf = [&](label i) {
         const label b = cloud.isFluid(i) ? bodyOf_[cloud.zone[i]] : -1;
         return b >= 0 && bodies_[b].free ? b : others;
     };
-    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        change[groupOf(i)] += z[4 * i + 3] - cloud.Up[i][3], n[groupOf(i)] += 1;
-    if (!allFree_) change[others] = 0;
-    for (label i = 0; i < cloud.n(); ++i)
-        if (const label k = groupOf(i); n[k] > 0) z[4 * i + 3] -= change[k] / n[k];
+    const label nSolid = cloud.nSolid();
+    List<scalar> sums =
+        blockSums(cloud.n() - nSolid, 2 * (others + 1), [&](label begin, label end, scalar* of) {
+            std::fill_n(of, 2 * (others + 1), 0);
+            for (label i = nSolid + begin; i < nSolid + end; ++i)
+            {
+                scalar* group = of + 2 * groupOf(i);
+                group[0] += z[4 * i + 3] - cloud.Up[i][3], group[1] += 1;
+            }
+        });
+    if (!allFree_) sums[2 * others] = 0;
+    forEach(0, cloud.n(), [&](label i) {
+        const scalar* group = sums.data() + 2 * groupOf(i);
+        if (group[1] > 0) z[4 * i + 3] -= group[0] / group[1];
+    });
 }
 
 void enclosedFluid::balance(List<scalar>& rows) const

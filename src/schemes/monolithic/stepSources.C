@@ -25,13 +25,12 @@ scalar wayOf(const timeScheme& time, scalar dt)
 
 void solidFeedback::addTo(List<scalar>& q, scalar dt)
 {
-    for (label i = 0; i < cloud_.nSolid(); ++i) q[i] += rate(i, dt);
+    forEach(0, cloud_.nSolid(), [&](label i) { q[i] += rate(i, dt); });
 }
 
 void solidFeedback::book(scalar dt)
 {
-    scalar sum = 0;
-    for (label i = 0; i < cloud_.nSolid(); ++i) sum += rate(i, dt);
+    const scalar sum = sumOf(0, cloud_.nSolid(), [&](label i) { return rate(i, dt); });
     cloud_.state.add(entries::solidFeedback, sum * cloud_.volume() * dt);
 }
 
@@ -49,23 +48,23 @@ scalar solidDefect::rate(label i, scalar dt) const
 
 void solidDefect::addTo(List<scalar>& q, scalar dt)
 {
-    for (label i = 0; i < cloud_.nSolid(); ++i) q[i] += rate(i, dt);
+    forEach(0, cloud_.nSolid(), [&](label i) { q[i] += rate(i, dt); });
     ahead_.clear();
     if (!time_.wellStarts()) return;
     volume_.overStep(cloud_.Up, dt, ahead_);
-    for (label i = 0; i < cloud_.nSolid(); ++i) q[i] -= ahead_[i] / dt;
+    forEach(0, cloud_.nSolid(), [&](label i) { q[i] -= ahead_[i] / dt; });
 }
 
 void solidDefect::book(scalar dt)
 {
-    scalar sum = 0;
-    for (label i = 0; i < cloud_.nSolid(); ++i) sum += rate(i, dt);
+    const scalar sum = sumOf(0, cloud_.nSolid(), [&](label i) { return rate(i, dt); });
     cloud_.state.add(entries::solidDefect, sum * cloud_.volume() * dt);
     List<scalar> missed;
     volume_.overStep(cloud_.Up, wayOf(time_, dt), missed);
-    for (size_t i = 0; i < ahead_.size(); ++i) missed[i] -= ahead_[i];
-    for (size_t i = 0; i < missed.size(); ++i) missed[i] += dt * left_[i];
-    std::copy(missed.begin(), missed.end(), cloud_.scalars.at(missedField).begin());
+    List<scalar>& field = cloud_.scalars.at(missedField);
+    forEach(0, cloud_.nSolid(), [&](label i) {
+        field[i] = missed[i] - (ahead_.empty() ? 0 : ahead_[i]) + dt * left_[i];
+    });
 }
 
 void firstWaySource::addTo(List<scalar>& q, scalar dt)
@@ -74,8 +73,9 @@ void firstWaySource::addTo(List<scalar>& q, scalar dt)
     particleCloud& cloud = c_.cloud;
     cloud.fillGhosts(cloud.Up, false);
     const List<scalar> loses = sphc::gradSquaredTrace({cloud, c_.list, c_.correction}, cloud.Up);
-    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+    forEach(cloud.nSolid(), cloud.n(), [&](label i) {
         if (!cloud.beyondOpen(i)) q[i] += dt * loses[i];
+    });
 }
 
 void enclosedDefect::book(scalar dt)
