@@ -66,7 +66,7 @@ CXX      ?= g++
 WARN     := -Wall -Wextra -Wno-psabi -Wno-restrict
 FLAGS_Release  := -O3 -DNDEBUG
 FLAGS_Debug    := -O0 -g -D_GLIBCXX_ASSERTIONS
-# What they find ends the program.  Sanitizers make g++ 12 warn of libstdc++'s and Eigen's own code (GCC bug 105562)
+# A finding ends the program.  Sanitizers make g++ 12 warn of libstdc++'s and Eigen's own code (GCC bug 105562)
 SANITIZERS     := address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS
 FLAGS_Sanitize := -O2 -g1 -Wno-maybe-uninitialized -fsanitize=$(SANITIZERS)
 # `make fuzz` only, with clang: its libFuzzer is what chooses the bytes
@@ -142,7 +142,7 @@ ifneq ($(filter test testPrograms,$(MAKECMDGOALS)),)
 $(OBJECTS): | testPackages
 endif
 
-# What libFuzzer drives: one program per reader of foreign files (tests/fuzz/targets.H)
+# Programs that libFuzzer drives: one per reader of foreign files (tests/fuzz/targets.H)
 FUZZED := dictionary csv stl hdf5 hdf5Damaged
 define FUZZER
 $(B)/fuzz/$(1): tests/fuzz/libFuzzer/entry.C $(B)/tests/fuzz/$(1:Damaged=)Target.o $$(call archivesOf,geometry fileFormats)

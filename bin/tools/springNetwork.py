@@ -19,8 +19,8 @@ plane, l, l, 1/l^2 on a sphere.  Equilibrium then gives (e.g. R. W. Ogden 1984, 
 
     p = int_{l_b}^{l_a} W'(l)/(l^m - 1) dl,      m = 2 cylinder, 3 sphere;      l_b from the wall's volume
 
-E or G name the modulus: the solver fits its links to it, at surfaces too.  Of k_e the sum over the lattice is taken: a
-wall of N layers that its missing neighbours soften is softer than that, which is no part of this law."""
+E or G name the modulus: the solver fits its links to it, at surfaces too.  With k_e
+it is the sum over the lattice: missing neighbours soften a wall of N layers further, which is no part of this law."""
 import argparse
 import math
 import os

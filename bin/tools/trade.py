@@ -138,7 +138,7 @@ class Trade:
             self._draw(path, drawn)
 
     def _draw(self, path, drawn):
-        """drawn: (family, variant, choice).  What has no room for its label stands in a list"""
+        """drawn: (family, variant, choice).  Runs without room for a label are listed beside"""
         at = lambda name: (self.runs[name][2], self.runs[name][3])
         canvas = Canvas([at(name) for _, name, _ in drawn])
         blocks, named, crowd = [], set(), []

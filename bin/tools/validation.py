@@ -208,8 +208,8 @@ def field(time, name):
 
 
 def wallSlip(errors, reach):
-    """errors: (distance from a wall, difference of the velocity from the exact one).  What the particles within `reach` are
-    off, carried on to the wall along the line of least squares"""
+    """errors: (distance from a wall, difference of the velocity from the exact one).  Returns the difference at the
+    wall, from the particles within `reach` along the line of least squares"""
     near = [(d, e) for d, e in errors if d < reach]
     ds, es = [d for d, _ in near], [e for _, e in near]
     return sum(es) / len(es) - slope(ds, es) * sum(ds) / len(ds)

@@ -35,11 +35,11 @@ fsiCase::fsiCase(Time& t) : time(t)
     solution = dictionary::fromFile(time.systemFile("sphSolution"));
     readCloud(time, cloud);
     readProperties();
+    coupling = solution.chooseOrDefault("coupling", {"projection", "monolithic"},
+                                        cloud.nSolid() > 0 ? "monolithic" : "projection");
     readKernel();
     readBoundary();
     readStructure();
-    coupling = solution.chooseOrDefault("coupling", {"projection", "monolithic"},
-                                        structure ? "monolithic" : "projection");
 }
 
 void fsiCase::readBoundary()
@@ -120,10 +120,7 @@ List<vector> fsiCase::bodyForceAt(scalar t) const
 void fsiCase::readKernel()
 {
     // 3D projection: h = dx, which the numbers of the paper imply; else Wendland C2 at h = 1.3 dx
-    const bool paper =
-        cloud.nDims == 3 &&
-        solution.getOrDefault<word>("coupling", cloud.nSolid() > 0 ? "monolithic" : "projection") ==
-            "projection";
+    const bool paper = cloud.nDims == 3 && coupling == "projection";
     const word name =
         schemes.chooseOrDefault("kernel", smoothingKernel::valid(), paper ? "cubic" : "WendlandC2");
     const bool Wendland = name.rfind("Wendland", 0) == 0;

@@ -94,7 +94,7 @@ void particleCloud::sortFluid(scalar cellSize)
 void particleCloud::clearGhosts()
 {
     x.resize(n_), Up.resize(n_), phase.resize(n_);
-    owner_.clear(), rule_.clear(), offset_.clear(), through_.clear(), depth_.clear();
+    owner_.clear(), rule_.clear(), offset_.clear(), depth_.clear();
     wallScale_.clear(), ownImage_.clear();
     volume_.clear(), stretched_ = false;
     rules_.clear(), surface.clear();
@@ -111,14 +111,13 @@ void particleCloud::addImage(label source, label rule, const vector& position, c
     x.push_back(vec4::from(position)), Up.push_back(vec4{});
     phase.push_back(phase[source]);
     owner_.push_back({.index = source}), rule_.push_back(rule), offset_.push_back(b);
-    through_.push_back(vector::Zero()), depth_.push_back(vec4{}), volume_.push_back(1);
+    depth_.push_back(vec4{}), volume_.push_back(1);
 }
 
-void particleCloud::addMirror(const imageSource& source, const vector& position, const vec4& b,
-                              const vector& through)
+void particleCloud::addMirror(const imageSource& source, const vector& position, const vec4& b)
 {
     addImage(source.particle, source.rule, position, b);
-    through_.back() = through, volume_.back() = source.volume;
+    volume_.back() = source.volume;
     phase.back() = phaseType::mirror;
     stretched_ = stretched_ || source.volume != 1;
 }
@@ -128,7 +127,7 @@ void particleCloud::addRigid(const vector& position, const vector& velocity)
     x.push_back(vec4::from(position)), Up.push_back(vec4::from(velocity));
     phase.push_back(phaseType::rigid);
     owner_.push_back({}), rule_.push_back(0), offset_.push_back(vec4::from(velocity));
-    through_.push_back(vector::Zero()), depth_.push_back(vec4{}), volume_.push_back(1);
+    depth_.push_back(vec4{}), volume_.push_back(1);
 }
 
 void particleCloud::addRigid(const vector& position, const vector& velocity, const vector& foot)
@@ -190,18 +189,6 @@ void particleCloud::fillGhosts(List<vec4>& f, bool homogeneous) const
     fill(
         f, [&](label g, const ghostRule& rule, const simd4& s) { return b(g) + product(rule, s); },
         b);
-}
-
-void particleCloud::fillContinuityGhosts(List<vec4>& f) const
-{
-    const auto b = [&](label g) { return offset_[g].s; };
-    const auto image = [&](label g, const ghostRule& rule, const simd4& s) {
-        vec4 value{b(g) + product(rule, s)};
-        if (rule.R != rule.M.topLeftCorner<3, 3>())
-            value.setXyz(rule.R * vector(s[0], s[1], s[2]) + through_[g]);
-        return value.s;
-    };
-    fill(f, image, b);
 }
 
 void particleCloud::fillGradientGhosts(List<vec4>& f) const

@@ -10,8 +10,8 @@ namespace ispf
 namespace
 {
 
-constexpr scalar parallel =
-    0.9;  // cosine: touching faces are meshed differently and cross a little
+// Cosine: touching faces are meshed differently and cross a little
+constexpr scalar parallel = 0.9;
 
 using facet = std::array<vector, 3>;
 

@@ -36,6 +36,14 @@ missing() {
 [ "$(declared "$root/src" | wc -l)" -gt 100 ] || fail "src declares no numbers"
 while read -r line; do fail "not in doc/constants.md: $line"; done < <(missing "$root/src" "$root/doc/constants.md")
 
+# gone TREE FILE: prints sources and tests that FILE names and TREE does not have
+gone() {
+    grep -E '^[|] ' "$2" | grep -oE '[A-Za-z_0-9/.]+\.([CH]|sh)\b' | sort -u | while read -r file; do
+        [ -n "$(find "$1"/{src,applications,tests} -path "*/$file" -print -quit)" ] || echo "$file"
+    done
+}
+while read -r file; do fail "doc/constants.md names $file, which does not exist"; done < <(gone "$root" "$root/doc/constants.md")
+
 # the script finds missing rows, other values and names in other files, and nothing else
 mkdir "$scratch/src"
 printf '%s\n' 'constexpr scalar told = 0.5, other =' '    -1e-3;  // [dx]' 'static constexpr int most = 3;' 'constexpr label none = n;' \
@@ -45,4 +53,7 @@ printf '%s\n' '| told, other | a.C, (1.1) | - | 0.5, -1e-3 of dx | - | - | - |' 
     '| least | b.H | - | 4 | - | - | - |' > "$scratch/table"
 [ "$(missing "$scratch/src" "$scratch/table" | paste -sd ,)" = "a.C most 3,b.H told 0.5,b.H least 2" ] ||
     fail "found in a table that lacks three: $(missing "$scratch/src" "$scratch/table")"
+mkdir "$scratch/applications" "$scratch/tests"
+[ "$(gone "$scratch" <(cat "$scratch/table" <(echo '| x | c.C | 1 | - | - | - | tests/d.sh |')) | paste -sd ,)" = "c.C,tests/d.sh" ] ||
+    fail "found of two files that are gone: $(gone "$scratch" "$scratch/table")"
 [ $failures = 0 ]

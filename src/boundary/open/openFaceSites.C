@@ -19,8 +19,7 @@ List<vector> tangents(const vector& n, int nDims)
     return {across, n.cross(across)};
 }
 
-// Depths at some points of a cell, where no foot lies on the rim: they tell of other points that they are outside the
-// strip, without a search
+// Keeps the depth at some points of a cell.  Another point that is outside the strip by these depths needs no search
 class knownSides
 {
 public:

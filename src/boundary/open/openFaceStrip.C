@@ -195,7 +195,7 @@ struct openFace::valueBefore
 // Data for the slope of the pressure, summed over the fluid whose feet share a square of dx
 struct openFace::slopeBefore
 {
-    // 1, acceleration of the near fluid; 1, friction of the fluid further before
+    // [0]: weight, [1..3]: acceleration near the face; [4]: weight, [5..7]: friction farther inside
     using sums = Eigen::Matrix<scalar, 8, 1>;
     struct bin
     {

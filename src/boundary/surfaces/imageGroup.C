@@ -209,7 +209,7 @@ bool imageGroup::comesNear(const structureImage& map, const boundBox& region) co
     return true;
 }
 
-// Adds chamber by chamber: the neighbours of chamber g are g s, with a generator s
+// Finds all images breadth-first: multiplies each known map g by the map s of each plane
 void imageGroup::grow(const boundBox& region)
 {
     const scalar length = region.diagonal() + support_;
@@ -310,8 +310,7 @@ struct imageMaker
             productRule[rule] = cloud.addRule(turn(map.R) * inner.M, map.R * inner.R);
         }
         b[3] += p;
-        cloud.addMirror({cloud.ghostSource(e), productRule[rule], cloud.ghostVolume(e)}, at, b,
-                        map.R * cloud.ghostThrough(e));
+        cloud.addMirror({cloud.ghostSource(e), productRule[rule], cloud.ghostVolume(e)}, at, b);
     }
 };
 

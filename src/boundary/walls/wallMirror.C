@@ -10,8 +10,8 @@ namespace ispf
 namespace
 {
 
-constexpr scalar parallel =
-    0.75;  // least cosine between normals of one part; below it is a corner: 41 degrees
+// Least cosine between normals of one part; below it is a corner: 41 degrees
+constexpr scalar parallel = 0.75;
 // Bounds of the volume factor.  Larger factors occur only near the centre of curvature, where particles are few.  It must
 // not be zero: viscosity divides by it
 constexpr scalar leastStretch = 1e-3, mostStretch = 2;
@@ -187,7 +187,7 @@ private:
 
     void addImage(label i, const List<foot>& members)
     {
-        wayToPlanes way, through;
+        wayToPlanes way;
         vector direction = vector::Zero(), velocity = vector::Zero();
         bool rigid = true;
         scalar volume = 1;
@@ -195,7 +195,6 @@ private:
         {
             volume *= f.volume;
             way.add(f.normal, f.distance);
-            through.add(f.normal, f.normal.dot(f.wallVelocity));
             direction += f.normal, velocity += f.wallVelocity / scalar(members.size());
             rigid = rigid && mirror_.parts_[f.part].rigid;
         }
@@ -206,8 +205,7 @@ private:
         {
             const tensor A = velocityMap(members);
             const label rule = ruleFor(members, way.P, A);
-            cloud_.addMirror({i, rule, volume}, at, vec4::from(velocity - A * velocity),
-                             2 * through.s);
+            cloud_.addMirror({i, rule, volume}, at, vec4::from(velocity - A * velocity));
         }
         facing_.push_back(cloud_.beyondOpen(i) ? vector(vector::Zero()) : direction.normalized());
     }

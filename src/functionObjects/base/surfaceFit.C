@@ -12,8 +12,8 @@ namespace
 
 // [dx] largest distance of the nearest particle of a covered facet
 constexpr scalar farthest = 1.5;
-constexpr scalar behind =
-    0.1;  // [dx] a particle further beyond the facet's plane is on the other side
+// [dx] a particle further beyond the facet's plane is on the other side
+constexpr scalar behind = 0.1;
 // a column of the fit is dependent if less than this share remains beside the others
 constexpr scalar dependent = 1e-3;
 

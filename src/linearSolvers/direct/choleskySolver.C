@@ -137,9 +137,4 @@ void choleskySolver::apply(const List<scalar>& r, List<scalar>& z) const
     c.nullSpace.project(z);
 }
 
-scalar choleskySolver::nFactorEntries() const
-{
-    return cholmod_->common.lnz;
-}
-
 }  // namespace ispf

@@ -80,7 +80,6 @@ solverPerformance PBiCGStab::solve(const linearOperator& A, const preconditioner
         // s = 0: the half step has already reached the solution
         const scalar omega = sNorm > 0 && sums[1] > 0 ? sums[0] / sums[1] : 0;
         rNorm = advance(alpha, omega, x);
-        report(k + 1, rNorm / state.result().normFactor);
         if (state.stop(k + 1, rNorm)) break;
 
         const scalar rhoNew = dot(rShadow_, r_);

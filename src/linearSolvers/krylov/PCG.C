@@ -63,7 +63,6 @@ solverPerformance PCG::solve(const linearOperator& A, const preconditioner& M,
         }
         alpha = zr / pq;
         rNorm = advance(alpha, x);
-        report(k + 1, rNorm / state.result().normFactor);
     }
     return state.result();
 }

@@ -13,12 +13,12 @@ namespace
 
 constexpr label powerSteps = 12;  // for the largest eigenvalue
 constexpr float margin = 1.1f;    // of that estimate, which is from below
-constexpr float lowerEnd =
-    0.2f;  // of the interval that Chebyshev's polynomial damps, over its upper end
-constexpr double held =
-    1e-6;  // of the largest eigenvalue of a diagonal block; smaller ones are free directions
-constexpr scalar worthwhile =
-    0.7;  // a level is kept only if it has at most this share of the nodes
+// Lower end of the interval that Chebyshev's polynomial damps, over its upper end
+constexpr float lowerEnd = 0.2f;
+// Share of the largest eigenvalue of a diagonal block; smaller ones are free directions
+constexpr double held = 1e-6;
+// A level is kept only if it has at most this share of the nodes
+constexpr scalar worthwhile = 0.7;
 
 template <int B>
 ISPF_INLINE void residualBody(const elasticLevel<B>& L, label begin, label end,

@@ -7,8 +7,8 @@ namespace ispf
 namespace
 {
 
-constexpr scalar growth =
-    3;  // of the cells from level to level: smoothed prolongations reach as far
+// Growth of the cells from level to level: smoothed prolongations reach as far
+constexpr scalar growth = 3;
 constexpr label coarsestSize = 100;  // nodes; their matrix is factorised as a dense one
 
 template <int B>

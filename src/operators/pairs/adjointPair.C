@@ -165,7 +165,7 @@ scalar adjointPair::cell(label i) const
     return sumNeighbours(*list_, within_.row(*list_, i), moment_[i].trace(), term) / cloud_->nDims;
 }
 
-// Fits the arms to elements to which p goes on linearly: they make good what (2.5) lacks, see (3.13)
+// Chooses the arms C_i of (3.13) so that G is exact for linear p beside walls, where (2.5) has an error
 void adjointPair::fitArms(List<tensor>& linear, List<vec4>& drag)
 {
     // eps^2 of (3.13) [1], and the largest norm of C_i - 1 (doc/constants.md)
@@ -195,13 +195,16 @@ void adjointPair::addDrag(const List<tensor>& one, const List<vec4>& drag, List<
 {
     if (linearB_.empty() || drag.empty()) return;
     const label first = within_.first, n = cloud_->n();
-    h_.assign(cloud_->nAll(), vec4{});
-    for (label i = first; i < n; ++i)
-        if (linearRow_[i] >= 0) h_[i] = vec4::from(-(one[i].transpose() * drag[i].xyz()));
+    h_.resize(cloud_->nAll());
+    forEach(0, n, [&](label i) {
+        const bool has = i >= first && linearRow_[i] >= 0;
+        h_[i] = has ? vec4::from(-(one[i].transpose() * drag[i].xyz())) : vec4{};
+    });
     cloud_->fillGradientGhosts(h_);
     const view v{*list_, within_.end->data(), cloud_->x.data(), faces_};
-    for (label i = first; i < n; ++i)
+    forEach(first, n, [&](label i) {
         if (besideWall_[i]) flux[i] += wallPart(v, h_.data(), i);
+    });
 }
 
 // Twice the mean of term(i, d) over each body, projected to directions that symmetry planes do not turn
@@ -292,7 +295,7 @@ void adjointPair::gradient(const List<vec4>& phi, List<vec4>& gp) const
     const view v{*list_, within_.end->data(), cloud_->x.data(), faces_};
     const List<vec4>& c = faces_.left;
     const List<vec4> all = twiceMean([&](label i, int d) { return c[i][d] * phi[i][3]; });
-    // p alone: the loop over pairs waits for what it gathers
+    // p in an array of its own: the loop over pairs then reads 8 bytes per neighbour, not 32
     p_.resize(cloud_->nAll());
     parallelFor(cloud_->nAll(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i) p_[i] = phi[i].s[3];
@@ -318,10 +321,11 @@ void adjointPair::divergence(const List<vec4>& u, List<scalar>& div) const
     const view v{*list_, within_.end->data(), cloud_->x.data(), faces_};
     if (!linearB_.empty())
     {
-        h_.assign(cloud_->nAll(), vec4{});
-        for (label i = first; i < n; ++i)
-            if (const label row = linearRow_[i]; row >= 0)
-                h_[i] = vec4::from(linearB_[row].transpose() * u[i].xyz());
+        h_.resize(cloud_->nAll());
+        forEach(0, n, [&](label i) {
+            const label row = i < first ? -1 : linearRow_[i];
+            h_[i] = row < 0 ? vec4{} : vec4::from(linearB_[row].transpose() * u[i].xyz());
+        });
         cloud_->fillGradientGhosts(h_);
     }
     const List<vec4>& c = faces_.left;

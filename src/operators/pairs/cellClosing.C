@@ -12,8 +12,8 @@ namespace
 
 constexpr simd4 inSpace = {1, 1, 1, 0};
 
-// Small shares of the diagonal that fix the level of psi, which has no effect: for particles, in the matrix of the blocks,
-// and for strips.  That of a strip takes the sum of areas that is not zero
+// Shares of the diagonal for particles, for the matrix of the blocks and for strips.  They fix the constant part of psi,
+// which changes no a_ij
 constexpr scalar level = 1e-9, regular = 1e-6, stripLevel = 1e-5;
 
 constexpr int most = 200;  // iterations
@@ -136,7 +136,7 @@ void cellClosing::admit(List<vec4>& psi) const
 void cellClosing::removeMeans(List<vec4>& f, bool drained) const
 {
     List<vec4> mean(bodies_.n);  // [3]: number of particles
-    // not by blocks: drops may be as many as particles, and each block would have sums of all
+    // Serial: there may be as many bodies as particles, and each block would need sums for all bodies
     for (label i = within_.first; i < cloud_.n(); ++i)
         if (closed_[i]) mean[bodies_.of[i]].s += f[i].s * inSpace + simd4{0, 0, 0, 1};
     const tensor free = cloud_.freeDirections();
@@ -282,7 +282,8 @@ bool cellClosing::improve(List<vec4>& r, List<vec4>& psi, scalar tolerance, int&
             if (inStrip_[i]) r[i] = vec4::from(free * r[i].xyz());
         }
     });
-    // Areas of a boundary whose sum is not zero have no cell to go to.  In a body with an open face they go beyond the face
+    // If the b_i of a body do not add up to zero, (2.4) has no solution: their mean is subtracted.  A body with an open face
+    // needs no correction, its strip takes the rest
     removeMeans(r, false);
 
     search s(*this, r);

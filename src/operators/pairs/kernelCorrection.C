@@ -19,17 +19,6 @@ ISPF_HOT void moment(const particleCloud& cloud, const neighbourList& list, labe
     for (int a = 0; a < 3; ++a) m(a, 0) += cx[a], m(a, 1) += cy[a], m(a, 2) += cz[a];
 }
 
-// M^-1 with the eigenvalues of M raised to `least`.  Few neighbours are left beside edges and thin plates: there
-// the plain inverse would enlarge the errors of few differences
-tensor boundedInverse(const tensor& M, scalar least, char& bounded)
-{
-    if (M.determinant() > 0.25) return M.inverse();  // no eigenvalue near zero: all are about 1
-    const Eigen::SelfAdjointEigenSolver<tensor> e(M);
-    bounded = e.eigenvalues()[0] < least;
-    return e.eigenvectors() * e.eigenvalues().cwiseMax(least).cwiseInverse().asDiagonal() *
-           e.eigenvectors().transpose();
-}
-
 }  // namespace
 
 void kernelCorrection::build(const particleCloud& cloud, const neighbourList& list,
@@ -37,27 +26,27 @@ void kernelCorrection::build(const particleCloud& cloud, const neighbourList& li
 {
     const label n = cloud.n();
     all.resize(n), same.resize(n);
-    List<char> poorAll(n, 0), poorSame(n, 0);
     const tensor start = vector(0, 0, cloud.nDims == 2 ? 1 : 0).asDiagonal();
     parallelFor(n, [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
             tensor m = start;
             moment(cloud, list, i, rowOf<among::same>(list, i), m);
-            same[i] = boundedInverse(m, leastEigenvalue, poorSame[i]);
+            same[i] = inverse(m, leastEigenvalue);
             moment(cloud, list, i, rowOf<among::others>(list, i), m);
-            all[i] = boundedInverse(m, leastEigenvalue, poorAll[i]);
+            all[i] = inverse(m, leastEigenvalue);
         }
     });
     countPairs(list.nPairs(), sizeof(label) + sizeof(scalar));
-    nPoorAll = nPoorSame = 0;
-    for (label i = 0; i < n; ++i) nPoorAll += poorAll[i], nPoorSame += poorSame[i];
 }
 
 tensor kernelCorrection::inverse(const tensor& moment, scalar leastEigenvalue)
 {
-    char bounded = 0;
-    return boundedInverse(moment, leastEigenvalue, bounded);
+    if (moment.determinant() > 0.25) return moment.inverse();  // all eigenvalues are about 1
+    const Eigen::SelfAdjointEigenSolver<tensor> e(moment);
+    return e.eigenvectors() *
+           e.eigenvalues().cwiseMax(leastEigenvalue).cwiseInverse().asDiagonal() *
+           e.eigenvectors().transpose();
 }
 
 tensor kernelCorrection::of(const particleCloud& cloud, const neighbourList& list, label i,

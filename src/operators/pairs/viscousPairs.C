@@ -45,9 +45,9 @@ void viscousPairs::apply(const List<vec4>& phi, List<vec4>& result, label first)
     countPairs(list_->nPairs() - list_->start[first], sizeof(label) + sizeof(scalar));
 }
 
-// 2 K u_i.(u_i - u_j) is the sum of K |u_i - u_j|^2, the half of the pair, and of K (u_i + u_j).(u_i - u_j).  The second
-// term cancels with the row of j, or of its image, but for a wall's own motion.  A wall has no row: its part goes to
-// `walls`.  The friction of images in curved mirrors is not mutual: `walls` contains the difference
+// Splits the power of each pair, 2 K u_i.(u_i - u_j), into the dissipation K |u_i - u_j|^2 and the exchange
+// K (u_i + u_j).(u_i - u_j).  The exchange cancels with the row of j, or of its image.  A wall has no row: its exchange goes
+// to `walls`.  The friction of images in curved mirrors is not mutual: `walls` contains the difference
 viscousPairs::power viscousPairs::powerOf(const List<vec4>& u) const
 {
     const particleCloud& cloud = *cloud_;

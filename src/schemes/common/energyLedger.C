@@ -155,7 +155,7 @@ std::pair<scalar, scalar> energyLedger::fromNothing() const
 {
     scalar gained = left_, of = end_[kinetic] + begin_[kinetic];
     for (int t = viscosity; t < nTerms; ++t) gained += terms_[t];
-    // the residual is controlled by the solver's tolerance: fluid at rest under gravity, with a guessed p, gains little else
+    // Without the solver's residual, which its tolerance bounds.  In fluid at rest with a guessed p it would be most of the gain
     gained -= terms_[solver];
     // a change before the step, e.g. by the user between two runs, is not made by the step
     gained -= begin_[elastic] - last_[elastic];

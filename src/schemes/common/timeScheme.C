@@ -125,7 +125,7 @@ void timeScheme::end(particleCloud& cloud, energyLedger& energy)
         const vector un = now_[i].xyz(), u0 = second ? before[i].xyz() : un;
         const vector u = (cloud.Up[i].xyz() - b1_ * un - b0_ * u0) / b2_;
         cloud.Up[i].setXyz(u);
-        // the second: gain of the kinetic energy less that of the bounded energy
+        // energy that the scheme takes; gain of the kinetic energy less that of the bounded energy (both per mass)
         return {(l2_ * u + l1_ * un + l0_ * u0).squaredNorm(),
                 0.5 * (u.squaredNorm() - un.squaredNorm()) - stored(u, un) + stored(un, u0)};
     });

@@ -7,7 +7,7 @@ namespace ispf
 namespace
 {
 
-// Pairs of C have a tau
+// F_ij, and 0 if one of the two has no equation for p: C has no such pair
 scalar weightOf(const neighbourList& list, const List<scalar>& tau, pairIndex k)
 {
     return tau[k] > 0 ? list.F[k] : 0;

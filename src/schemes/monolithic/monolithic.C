@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// coupling monolithic; see monolithicSystem.H.  Entries of sphSolution:
+// coupling monolithic; see coupledSystem.H.  Entries of sphSolution:
 //
 //     monolithic
 //     {

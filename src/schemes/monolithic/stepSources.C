@@ -15,7 +15,7 @@ namespace
 // Field of the particles: error of J that the rate of J has left in the last step
 const word missedField = "missedJ";
 
-// Time over which a solid still moves from its place in the equations.  With forces at x_b that is the middle of the step
+// Returns the time for which the solid moves after its place in the equations.  It is 0 if forces are taken at x_b
 scalar wayOf(const timeScheme& time, scalar dt)
 {
     return time.midway() ? 0 : dt;

@@ -15,7 +15,8 @@ namespace
 List<vec4> unpacked(const List<scalar>& x)
 {
     List<vec4> u(x.size() / 4);
-    for (size_t i = 0; i < u.size(); ++i) u[i].s = simd4{x[4 * i], x[4 * i + 1], x[4 * i + 2], 0};
+    forEach(0, label(u.size()),
+            [&](label i) { u[i].s = simd4{x[4 * i], x[4 * i + 1], x[4 * i + 2], 0}; });
     return u;
 }
 

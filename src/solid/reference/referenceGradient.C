@@ -126,11 +126,10 @@ void referenceGradient::forces(const List<tensor>& P, List<vec4>& f) const
     const label n = ref_.n();
     List<tensor> A(n);
     List<vec4> columns(3 * n);
-    for (label i = 0; i < n; ++i)
-    {
+    forEach(0, n, [&](label i) {
         A[i] = ref_.volume() * P[i] * B_[i];
         for (int b = 0; b < 3; ++b) columns[3 * i + b] = vec4::from(A[i].col(b));
-    }
+    });
     f.resize(std::max<size_t>(f.size(), size_t(n)));
     parallelFor(
         n,

@@ -37,7 +37,8 @@ void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ, List<tensor>&
 {
     gradient_.applyLinear(u, dF);
     dJ.resize(dF.size());
-    for (size_t i = 0; i < dF.size(); ++i) dJ[i] = cofactor_[i].cwiseProduct(dF[i]).sum();
+    forEach(0, label(dF.size()),
+            [&](label i) { dJ[i] = cofactor_[i].cwiseProduct(dF[i]).sum(); });
 }
 
 // D u_i = sum_j g_ij.(u_j - u_i) with g_ij = w_ij cof F_i B_i R_ij: p_i acts on j with the force V g_ij
@@ -82,7 +83,7 @@ void volumeConstraint::overStep(const List<vec4>& u, scalar dt, List<scalar>& mi
 
 void volumeConstraint::addStress(const List<vec4>& up, List<tensor>& P) const
 {
-    for (size_t i = 0; i < cofactor_.size(); ++i) P[i] -= up[i][3] * cofactor_[i];
+    forEach(0, label(cofactor_.size()), [&](label i) { P[i] -= up[i][3] * cofactor_[i]; });
 }
 
 }  // namespace ispf

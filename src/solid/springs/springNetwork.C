@@ -29,8 +29,8 @@ struct linkTable
     List<std::int32_t> index;       // partner
     List<std::uint16_t> image;      // 0: the partner itself, m: images[m - 1]
     List<scalar> d0, k;
-    List<label>
-        slot;  // block of the tangent's row; links to images of the particle itself have one too
+    // Block of the tangent's row; links to images of the particle itself have one too
+    List<label> slot;
 };
 
 // Rows of the links that can move: links between two clamped particles are left out

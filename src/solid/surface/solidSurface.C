@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace ispf
 {
@@ -70,6 +71,20 @@ void solidSurface::setup(const particleCloud& cloud, const neighbourList& list,
             for (label i = begin; i < end; ++i) setupParticle(i, kernel, cofactor);
         },
         256);
+    findReceivers();
+}
+
+void solidSurface::findReceivers()
+{
+    List<label>& start = receiverStart_;
+    start.assign(cloud_->n() + 1, 0);
+    forShares([&](label, int, label j, scalar) { ++start[cloud_->ownerOf(j) + 1]; });
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    received_.resize(start.back());
+    List<label> place(start.begin(), start.end() - 1);
+    forShares([&](label k, int s, label j, scalar w) {
+        received_[place[cloud_->ownerOf(j)]++] = {2 * k + s, w};
+    });
 }
 
 // Finds the feet from the rest state, once: they do not move within the solid
@@ -176,12 +191,13 @@ scalar solidSurface::missed(const List<vec4>& u, const List<tensor>& dF, scalar 
 
 scalar solidSurface::area(const List<char>& zones) const
 {
-    scalar sum = 0;
-    for (label i = 0; i < cloud_->nSolid(); ++i)
+    return sumOf(0, cloud_->nSolid(), [&](label i) {
+        scalar sum = 0;
         for (const int s : {0, 1})
             if (const sided& p = part_[s][i]; p.side >= 0 && zones[p.side] && !cloud_->uFixed[i])
                 sum += p.S.norm();
-    return sum;
+        return sum;
+    });
 }
 
 void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
@@ -239,7 +255,7 @@ void solidSurface::loads(const List<vec4>& up, List<vec4>& Q, List<tensor>& P) c
         256);
 }
 
-// Calls visit(solid particle, its side, neighbour, weight)
+// Calls visit(solid particle, number of its side, neighbour, weight)
 template <class Visit>
 void solidSurface::forShares(const Visit& visit) const
 {
@@ -250,7 +266,7 @@ void solidSurface::forShares(const Visit& visit) const
             const scalar* w = weight_[s].data() + start_[i];
             const pairRange row = rowOf<among::others>(*list_, i);
             forNeighbours(*list_, row, [&](pairIndex k, label j) {
-                if (w[k - row.first] != 0) visit(i, part_[s][i], j, w[k - row.first]);
+                if (w[k - row.first] != 0) visit(i, s, j, w[k - row.first]);
             });
         }
 }
@@ -260,7 +276,8 @@ void solidSurface::shares(List<vec4>& b, List<tensor>& moment) const
     const particleCloud& cloud = *cloud_;
     const scalar perVolume = 1 / cloud.volume();
     b.assign(cloud.n(), vec4{}), moment.assign(cloud.n(), tensor::Zero());
-    forShares([&](label k, const sided& part, label j, scalar w) {
+    forShares([&](label k, int s, label j, scalar w) {
+        const sided& part = part_[s][k];
         vector S = part.S, way = cloud.x[k].xyz() + part.e - cloud.x[j].xyz();
         if (j >= cloud.n())
         {
@@ -276,14 +293,17 @@ void solidSurface::shares(List<vec4>& b, List<tensor>& moment) const
 void solidSurface::addFlux(const List<vec4>& u, const List<tensor>& dF, List<scalar>& div) const
 {
     const scalar perVolume = 1 / cloud_->volume();
-    label last = -1;
-    int side = -1;
-    scalar gives = 0;
-    forShares([&](label k, const sided& part, label j, scalar w) {
-        if (k != last || part.side != side)
-            gives = perVolume * part.S.dot(u[k].xyz() + dF[k] * part.e0), last = k,
-            side = part.side;
-        div[cloud_->ownerOf(j)] -= w * gives;
+    List<scalar> gives(2 * cloud_->nSolid());  // of each particle's two sides
+    forEach(0, cloud_->nSolid(), [&](label k) {
+        for (const int s : {0, 1})
+        {
+            const sided& part = part_[s][k];
+            gives[2 * k + s] = perVolume * part.S.dot(u[k].xyz() + dF[k] * part.e0);
+        }
+    });
+    forEach(0, cloud_->n(), [&](label i) {
+        for (label r = receiverStart_[i]; r < receiverStart_[i + 1]; ++r)
+            div[i] -= received_[r].weight * gives[received_[r].side];
     });
 }
 

@@ -59,8 +59,8 @@ struct request
 struct body
 {
     structureReference ref;
-    List<char>
-        inside;  // one particle of each layer, in the middle; of an endless lattice one alone
+    // One particle of each layer, in the middle; of an endless lattice one alone
+    List<char> inside;
 };
 
 // A body so wide that the measured particles have the links, and fitted stiffnesses, of an endless one

@@ -10,8 +10,8 @@ namespace ispf
 namespace
 {
 
-constexpr scalar largestGrowth =
-    0.02;  // change of a particle's volume from rest to start: the solid is incompressible
+// Change of a particle's volume from rest to start: the solid is incompressible
+constexpr scalar largestGrowth = 0.02;
 constexpr scalar planeSlip = 1e-3;  // [dx]
 
 word text(const vector& x)
