@@ -117,8 +117,7 @@ std::array<scalar, energyLedger::nTerms> energyLedger::parts(label i, const cont
         of[sources] += r.p * r.source, of[solver] += (r.p - level) * left;
         of[c_.walls->hasOpen() ? faces : walls] += level * left;
     }
-    if (!cloud.isFree(i))
-        of[cloud.isFluid(i) ? faces : walls] += cloud.Up[i].xyz().dot(r.gradient);
+    if (!cloud.isFree(i)) of[cloud.isFluid(i) ? faces : walls] += cloud.Up[i].xyz().dot(r.gradient);
     return of;
 }
 

@@ -15,8 +15,9 @@ namespace
 List<vec4> unpacked(const List<scalar>& x)
 {
     List<vec4> u(x.size() / 4);
-    forEach(0, label(u.size()),
-            [&](label i) { u[i].s = simd4{x[4 * i], x[4 * i + 1], x[4 * i + 2], 0}; });
+    forEach(0, label(u.size()), [&](label i) {
+        u[i].s = simd4{x[4 * i], x[4 * i + 1], x[4 * i + 2], 0};
+    });
     return u;
 }
 

@@ -37,8 +37,7 @@ void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ, List<tensor>&
 {
     gradient_.applyLinear(u, dF);
     dJ.resize(dF.size());
-    forEach(0, label(dF.size()),
-            [&](label i) { dJ[i] = cofactor_[i].cwiseProduct(dF[i]).sum(); });
+    forEach(0, label(dF.size()), [&](label i) { dJ[i] = cofactor_[i].cwiseProduct(dF[i]).sum(); });
 }
 
 // D u_i = sum_j g_ij.(u_j - u_i) with g_ij = w_ij cof F_i B_i R_ij: p_i acts on j with the force V g_ij
