@@ -121,7 +121,7 @@ private:
             const scalar volume = radius == 0 ? 1 : (radius + d) / (radius - d);
             const vector foot = x - d * n;
             const label rule = cloud.addRule(M, tensor::Identity() - 2 * n * n.transpose());
-            cloud.addMirror({i, rule, volume}, x - 2 * d * n, vec4::from(2 * foot), {0, 0, 0});
+            cloud.addMirror({i, rule, volume}, x - 2 * d * n, vec4::from(2 * foot));
         }
     }
 

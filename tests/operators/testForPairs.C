@@ -32,7 +32,7 @@ struct strewn
         for (label i = 0; i < cloud.n(); i += 3)
         {
             cloud.addImage(i, rule, point(), vec4{});
-            if (cloud.isFluid(i)) cloud.addMirror({i, rule}, point(), vec4{}, {0, 0, 0});
+            if (cloud.isFluid(i)) cloud.addMirror({i, rule}, point(), vec4{});
             cloud.addRigid(point(), {0, 0, 0});
         }
         const auto kernel = smoothingKernel::New("WendlandC2", 2, 1.3 * cloud.dx);

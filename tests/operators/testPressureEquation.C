@@ -208,7 +208,7 @@ TEST_CASE("rigid and mirrored neighbours are absent from the matrix")
     channel c(1, 0, -1, 6);
     const Eigen::MatrixXd before = dense(c.A);
     c.cloud.addRigid({0.31, 0.47, 0}, {1, 2, 0});
-    c.cloud.addMirror({5, 0}, {0.51, 0.47, 0}, vec4{}, vector::Zero());
+    c.cloud.addMirror({5, 0}, {0.51, 0.47, 0}, vec4{});
     c.refresh();
     std::int64_t seen = 0;
     for (label i = 0; i < c.cloud.n(); ++i) seen += c.list.start[i + 1] - c.list.wall[i];
