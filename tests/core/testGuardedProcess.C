@@ -47,16 +47,16 @@ TEST_CASE("a guarded job hands over what it packs, however much")
     CHECK(in.getList<scalar>() == numbers);
     CHECK(in.getWords() == List<word>{"a", "", "b c"});
     CHECK(in.getList<int>().empty());
-    CHECK(errorOf([&] { in.get<char>(); }).find("cut off") != word::npos);
+    CHECK(errorOf([&] { in.get<char>(); }).find("end too early") != word::npos);
     run([](packer&) {});  // nothing
 }
 
 TEST_CASE("lengths beyond the bytes ask for no memory")
 {
     const word bytes(8, '\x7f');
-    CHECK(errorOf([&] { unpacker(bytes).getList<scalar>(); }).find("cut off") != word::npos);
-    CHECK(errorOf([&] { unpacker(bytes).getWord(); }).find("cut off") != word::npos);
-    CHECK(errorOf([&] { unpacker(bytes).getWords(); }).find("cut off") != word::npos);
+    CHECK(errorOf([&] { unpacker(bytes).getList<scalar>(); }).find("end too early") != word::npos);
+    CHECK(errorOf([&] { unpacker(bytes).getWord(); }).find("end too early") != word::npos);
+    CHECK(errorOf([&] { unpacker(bytes).getWords(); }).find("end too early") != word::npos);
 }
 
 TEST_CASE("a guarded job's own error arrives as it is, others with its name")
