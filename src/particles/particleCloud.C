@@ -162,7 +162,7 @@ bool particleCloud::hasRigid() const
                        [](const ghostOwner& o) { return o.index < 0; });
 }
 
-// The one place where values of owned particles reach their ghosts: image(g, rule, value of the owner) or rigid(g)
+// Fills the ghosts of f with image(g, rule, value of the owner), or with rigid(g) if g has no owner
 template <class Image, class Rigid>
 void particleCloud::fill(List<vec4>& f, const Image& image, const Rigid& rigid) const
 {

@@ -13,7 +13,7 @@ namespace
 constexpr simd4 inSpace = {1, 1, 1, 0};
 
 // Shares of the diagonal for particles, for the matrix of the blocks and for strips.  They fix the constant part of psi,
-// which changes no a_ij
+// which changes no a_ij.  The share of the strips also takes a sum of areas that is not zero
 constexpr scalar level = 1e-9, regular = 1e-6, stripLevel = 1e-5;
 
 constexpr int most = 200;  // iterations

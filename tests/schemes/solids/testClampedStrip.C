@@ -197,7 +197,8 @@ scalar iterations(const strip& s)
     return n / steps;
 }
 
-// 20 and more before the clamp's pressure was left to those that act, and with solids too small to be coarsened
+// A step took 20 iterations and more while p deep in a clamp was an unknown (theory 5.4), and while the elastic multigrid had
+// no coarse level for a small solid
 TEST_CASE("a long clamp, or a small solid, costs no iterations")
 {
     for (const int clamp : {4, 16}) CHECK(iterations({4, 20, 1.75, clamp}) < 10);
