@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fsiCase.H"
+#include "pairViscosity.H"
 
 #include "cloudIO.H"
 #include "sphc.H"
@@ -78,6 +79,7 @@ void fsiCase::readProperties()
                          physical.where(hasMu ? "mu" : "rho"));
     mu = hasMu ? physical.getInRange("mu", 0, 1e30, dims::dynamicViscosity)
                : rho * physical.getInRange("nu", 0, 1e30, dims::kinematicViscosity);
+    viscosity = viscosityModel::New(physical, mu);
     // all zones are one incompressible system with one density
     const dictionary zoneRho = physical.subOrEmptyDict("zoneDensities");
     for (const word& zone : zoneRho.keys())
@@ -181,7 +183,9 @@ void fsiCase::readStructure()
     ref.support = kernel->support(), ref.rho = rho;
     const List<vec4>& rest = cloud.vectors.at("x0");
     for (label i = 0; i < cloud.nSolid(); ++i)
-        ref.x0.push_back(rest[i].xyz()), ref.fixed.push_back(cloud.uFixed[i]);
+        ref.x0.push_back(rest[i].xyz()), ref.fixed.push_back(cloud.uFixed[i]),
+            ref.zone.push_back(cloud.zone[i]);
+    for (const zoneInfo& z : cloud.zones) ref.zoneNames.push_back(z.name);
     for (const structureImage& m : walls->images()) ref.images.push_back({m.R, m.t});
     structure = structureModel::New(properties, ref);
     if (walls->hasCyclic()) bodies_ = freeBodies(structure->tangentPattern(), cloud.uFixed);
@@ -238,7 +242,15 @@ void fsiCase::updateNeighbours(const stepTimes& times)
     list.build(cloud, *kernel, walls->visible(cloud));
     correction.build(cloud, list);
     makeShearExact(cloud, list);
+    if (viscosity) viscosity->update(cloud, list, correction);
     countStrays();
+}
+
+scalar fsiCase::largestNu() const
+{
+    const pairViscosity ratio(cloud);
+    if (!viscosity) return nu();
+    return nu() * largestOf(0, cloud.n(), [&](label i) { return ratio.at(i); });
 }
 
 // A body whose centre has passed a cyclic plane is moved to the other plane as a whole.  Only differences of its positions
@@ -278,7 +290,8 @@ void fsiCase::report() const
            << "kernel: " << kernel->name() << ", h = " << str(kernel->h()) << " m, support "
            << str(kernel->support() / cloud.dx) << " dx\n"
            << "coupling: " << coupling << "\n"
-           << "fluid: rho = " << str(rho) << " kg/m3, mu = " << str(mu) << " Pa s\n"
+           << "fluid: rho = " << str(rho) << " kg/m3, mu = " << str(mu) << " Pa s"
+           << (viscosity ? " at high shear rates, " + viscosity->description() : word()) << "\n"
            << "structure: " << (structure ? structure->description() : "none") << "\n"
            << "body force: " << (bodyForce.empty() ? "none" : "given") << "\n"
            << "threads: " << nThreads() << "\n";

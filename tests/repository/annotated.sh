@@ -34,9 +34,14 @@ inPlaceOf constant/structureProperties G E
 inPlaceOf constant/structureProperties k_e E
 annotatedCase
 # entries in comments below this line replace those above it
-sed -i -E '1,/^\/\/ with structureModel totalLagrangian/d; s|^( *)//((zeroEnergy\|radius\|material\|type\|E) .*\|[{}])|\1\2|' constant/structureProperties
+sed -i -E '1,/^\/\/ with structureModel totalLagrangian/d; /^\/\/ other materials/,$d; s|^( *)//((zeroEnergy\|radius\|material\|type\|E) .*\|[{}])|\1\2|' constant/structureProperties
 echo "structureModel totalLagrangian;" >> constant/structureProperties
 place; solved; grep -q "structure: totalLagrangian, neoHookean" log || fail "totalLagrangian: $(tail -n 5 log)"
+while read -r line; do
+    annotatedCase
+    echo "structureModel totalLagrangian; ${line#//}" > constant/structureProperties
+    place; solved
+done < <(grep -E '^//materials? +\{ ' "$annotated/structureProperties")
 inPlaceOf system/functions zones phase
 annotatedCase
 sed -i -E "s|^( *)surface( *)myWall_to_myFluid;( *)// needed, or patches|\1patches\2(myWalls);|; s|^( *)patch .*||; s|//surface |surface |" system/functions

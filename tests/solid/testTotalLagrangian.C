@@ -258,3 +258,102 @@ TEST_CASE("wrong entries of totalLagrangian are refused with what is valid")
     CHECK(error(rubber + "links radius;").find("links") != word::npos);
     CHECK(error("material { type neoHookean; G 1e6; nu 0.5; }").find("nu") != word::npos);
 }
+
+namespace
+{
+
+// A layer of soft material below one of stiff material, endless along x; the lowest and the highest row are held
+structureReference layers(int rows, label softRows)
+{
+    constexpr int columns = 8;
+    structureReference ref = latticeBlock(columns, rows, 0);
+    const vector period(columns * ref.dx, 0, 0);
+    ref.images = {{tensor::Identity(), period}, {tensor::Identity(), -period}};
+    ref.zoneNames = {"soft", "stiff"};
+    scalar low = 1e30, high = -1e30;
+    for (const vector& x : ref.x0) low = std::min(low, x[1]), high = std::max(high, x[1]);
+    for (label i = 0; i < ref.n(); ++i)
+    {
+        const scalar row = (ref.x0[i][1] - low) / ref.dx;
+        ref.zone.push_back(row > softRows - 0.5 ? 1 : 0);
+        ref.fixed[i] = row < 0.5 || ref.x0[i][1] > high - 0.5 * ref.dx;
+    }
+    return ref;
+}
+
+}  // namespace
+
+TEST_CASE("layers of two materials, in stiffness up to 1000 to one: shear spreads as in series")
+{
+    for (const scalar contrast : {1.0, 10.0, 1000.0})
+    {
+        CAPTURE(contrast);
+        constexpr int rows = 20;
+        constexpr label softRows = 10;
+        const structureReference ref = layers(rows, softRows);
+        const auto model = lagrangian(ref,
+                                      "materials { soft { type neoHookean; G 1e3; } stiff { "
+                                      "type Yeoh; c1 " +
+                                          str(500 * contrast, 17) + "; } }");
+        CHECK(model->shearModulus(0) == 1e3);
+        CHECK(model->shearModulus() == doctest::Approx(1e3 * contrast).epsilon(1e-12));
+        // the highest row moves along x by a small way; the free rows find their places
+        List<vec4> x = atRest(ref), f;
+        const scalar way = 1e-4 * ref.dx;
+        for (label i = 0; i < ref.n(); ++i)
+            if (ref.fixed[i] && ref.zone[i] == 1) x[i][0] += way;
+        model->force(x, f);
+        blockMatrix3 K = model->tangentPattern();
+        model->assembleTangent(atRest(ref), tangentKind::full, K);
+        List<label> row(size_t(ref.n()), -1);
+        label n = 0;
+        for (label i = 0; i < ref.n(); ++i)
+            if (!ref.fixed[i]) row[i] = n, n += 2;
+        Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+        Eigen::VectorXd b(n);
+        for (label i = 0; i < ref.n(); ++i)
+        {
+            if (row[i] < 0) continue;
+            A.block<2, 2>(row[i], row[i]) = K.diagonal[i].topLeftCorner<2, 2>();
+            b.segment<2>(row[i]) = f[i].xyz().head<2>();
+            for (label s = K.rowStart[i]; s < K.rowStart[i + 1]; ++s)
+                if (const label j = row[K.column[s]]; j >= 0)
+                    A.block<2, 2>(row[i], j) += K.value[s].topLeftCorner<2, 2>();
+        }
+        const Eigen::VectorXd u = A.ldlt().solve(b);
+        for (label i = 0; i < ref.n(); ++i)
+            if (row[i] >= 0) x[i].s += vec4::from({u[row[i]], u[row[i] + 1], 0}).s;
+        model->force(x, f);
+        scalar pull = 0, most = 0;
+        for (label i = 0; i < ref.n(); ++i)
+            if (!ref.fixed[i]) most = std::max(most, f[i].xyz().norm());
+            else if (ref.zone[i] == 1) pull -= f[i][0];
+        // heights between the held rows: the interface lies in the middle
+        const scalar height = (rows - 1) / 2.0 * ref.dx;
+        const scalar exact = way / (height / 1e3 + height / (1e3 * contrast)) * 8 * ref.dx;
+        CHECK(most < 1e-6 * pull);
+        CHECK(pull == doctest::Approx(exact).epsilon(0.05));
+    }
+}
+
+TEST_CASE("materials of zones: the same law in two zones is one solid; wrong names are told")
+{
+    const structureReference ref = layers(8, 4);
+    const word law = "{ type neoHookean; G 1e6; }";
+    const auto one = lagrangian(ref),
+               two = lagrangian(ref, "materials { soft " + law + " stiff " + law + " }");
+    const List<vec4> x = alternating(ref, 0.1 * ref.dx);
+    List<vec4> f, g;
+    one->force(x, f), two->force(x, g);
+    for (label i = 0; i < ref.n(); ++i)
+        CHECK((f[i].xyz() - g[i].xyz()).norm() < 1e-12 * G * ref.dx);
+    const auto error = [&](const word& entries) {
+        return errorOf([&] { lagrangian(ref, entries); });
+    };
+    CHECK(error("materials { soft " + law + " }").find("for the zone stiff") != word::npos);
+    CHECK(error("materials { soft " + law + " stiff " + law + " wall " + law + " }")
+              .find("soft stiff") != word::npos);
+    CHECK(error("zeroEnergy 0.2;").find("exactly one of 'material") != word::npos);
+    CHECK(error(rubber + " materials { soft " + law + " stiff " + law + " }").find("exactly one") !=
+          word::npos);
+}

@@ -8,6 +8,7 @@ namespace ispf
 using madeOutlet = std::unique_ptr<outlet>;
 
 madeOutlet newResistance(const dictionary&, const word&);
+madeOutlet newWindkessel(const dictionary&, const word&);
 
 namespace
 {
@@ -19,7 +20,7 @@ public:
         : p_(Function1::New("p", dict, caseFolder, dims::pressure))
     {
     }
-    scalar pressure(scalar t, scalar) const override { return p_->value(t); }
+    scalar pressure(const step& s, scalar) const override { return p_->value(s.end); }
 
 private:
     std::unique_ptr<Function1> p_;
@@ -36,7 +37,8 @@ std::unique_ptr<outlet> outlet::New(const dictionary& dict, const word& caseFold
 {
     using maker = madeOutlet (*)(const dictionary&, const word&);
     static const std::map<word, maker> kinds = {{"fixedPressure", newFixedPressure},
-                                                {"resistance", newResistance}};
+                                                {"resistance", newResistance},
+                                                {"Windkessel", newWindkessel}};
     List<word> names;
     for (const auto& kind : kinds) names.push_back(kind.first);
     return kinds.at(dict.chooseOrDefault("outlet", names, "fixedPressure"))(dict, caseFolder);

@@ -60,7 +60,7 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
 
 void openFace::setStep(scalar t0, scalar t1, scalar pressures)
 {
-    time_ = pressures;
+    step_ = {t0, pressures};
     if (inflow_) inflow_->setStep(t0, t1);
 }
 
@@ -83,7 +83,7 @@ bool openFace::agrees(const particleCloud& cloud, scalar rho, scalar dt) const
 
 void openFace::accept(particleCloud& cloud, scalar t0, scalar t1) const
 {
-    if (p_) cloud.state.set(outletState(), p_->accept(t0, t1, images_ * flux_));
+    if (p_) cloud.state.set(outletState(), p_->accept({t0, t1}, images_ * flux_));
 }
 
 scalar openFace::weight(scalar q)

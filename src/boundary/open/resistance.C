@@ -20,8 +20,8 @@ public:
           R_(dict.getInRange<scalar>("resistance", 0, 1e30))
     {
     }
-    scalar pressure(scalar t, scalar Q) const override { return p_->value(t) + R_ * Q; }
-    scalar slope() const override { return R_; }
+    scalar pressure(const step& s, scalar Q) const override { return p_->value(s.end) + R_ * Q; }
+    scalar slope(const step&) const override { return R_; }
 
 private:
     std::unique_ptr<Function1> p_;

@@ -33,7 +33,7 @@ bodyLoad loadOn(const loadedBody& body, const fsiCase& c, const pairFriction& fr
             const vector arm = f.centre - reference.centre;
             sum.pressure += p, sum.pressureMoment += arm.cross(p);
             if (byPairs) continue;
-            const vector v = -viscousStress(s.fluid[k], c.mu) * f.area;
+            const vector v = -viscousStress(s.fluid[k], c) * f.area;
             sum.viscous += v, sum.viscousMoment += arm.cross(v);
         }
     return sum;

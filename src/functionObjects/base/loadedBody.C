@@ -110,9 +110,11 @@ List<loadedBody::triangulation> loadedBody::triangulated() const
     return all;
 }
 
-tensor viscousStress(const fluidAt& f, scalar mu)
+tensor viscousStress(const fluidAt& f, const fsiCase& c)
 {
-    return mu * (f.gradU + f.gradU.transpose());
+    const tensor twiceD = f.gradU + f.gradU.transpose();
+    const scalar rate = std::sqrt(0.5) * twiceD.norm();
+    return c.mu * (c.viscosity ? c.viscosity->ratio(rate) : 1) * twiceD;
 }
 
 }  // namespace ispf

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pairFriction.H"
+#include "pairViscosity.H"
 
 #include "pointGrid.H"
 #include "sphc.H"
@@ -88,7 +89,8 @@ public:
           state_(s),
           bodies_(c, s.cloud),
           turn_(bodies_.n(), tensor::Zero()),
-          scale_(sphc::laplacianScale({s.cloud, s.list, s.B}))
+          scale_(sphc::laplacianScale({s.cloud, s.list, s.B})),
+          viscosity_(s.cloud)
     {
         for (size_t w = 0; w < bodies_.walls().size(); ++w)
             turn_[w] = pairFriction::turnOf(bodies_.walls()[w], c);
@@ -107,10 +109,11 @@ public:
             const scalar both = rigid ? 2 * scale_[i] : scale_[i] + scale_[j];
             const vector xi = cloud.x[i].xyz(), xj = cloud.x[j].xyz();
             const scalar counts = cloud.friction(i, j);
+            const scalar mu = case_.mu * viscosity_.of(i, j);
             const vector u = counts * (cloud.Up[i].xyz() - cloud.Up[j].xyz()) -
                              (rigid ? cloud.frictionOfRow(i) : counts) * (turn_[body] * (xi - xj));
             loads[body].add(0.5 * (xi + xj),
-                            -case_.mu * cloud.volume() * both * sphc::viscousF(cloud, list, k) * u);
+                            -mu * cloud.volume() * both * sphc::viscousF(cloud, list, k) * u);
         });
     }
 
@@ -120,6 +123,7 @@ private:
     bodyFinder bodies_;
     List<tensor> turn_;
     List<scalar> scale_;
+    pairViscosity viscosity_;
 };
 
 }  // namespace

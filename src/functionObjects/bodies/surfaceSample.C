@@ -72,7 +72,7 @@ private:
         {
             const vector n = s.facets[k].area.normalized(), none = vector::Constant(blank);
             const fluidAt& f = s.fluid[k];
-            const vector traction = -viscousStress(f, case_.mu) * n;
+            const vector traction = -viscousStress(f, case_) * n;
             rows.push_back({s.facets[k].centre, f.U, traction - traction.dot(n) * n, f.p, true});
             if (!f.covered) rows.back() = {s.facets[k].centre, none, none, blank, false};
         }

@@ -165,7 +165,7 @@ private:
                     const fluidAt& f = side.fluid[k];
                     if (!f.covered) continue;
                     const scalar head = f.p + case_.rho * (0.5 * f.U.squaredNorm() - b.dot(centre));
-                    power -= head * f.U.dot(area) - f.U.dot(viscousStress(f, case_.mu) * area);
+                    power -= head * f.U.dot(area) - f.U.dot(viscousStress(f, case_) * area);
                 }
         return power;
     }

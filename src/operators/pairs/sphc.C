@@ -3,6 +3,7 @@
 #include "pairSums.H"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ispf
 {
@@ -26,9 +27,9 @@ tensor viscousCorrection(const stencil& s, label i)
     return stretched && m.determinant() > singular ? tensor(m.inverse()) : s.B.all[i];
 }
 
-}  // namespace
-
-List<scalar> sphc::gradSquaredTrace(const stencil& s, const List<vec4>& phi)
+// value(grad u) per owned particle
+template <class Value>
+List<scalar> fromGradient(const stencil& s, const List<vec4>& phi, const Value& value)
 {
     List<scalar> result(s.cloud.n());
     parallelFor(s.cloud.n(), [&](label begin, label end) {
@@ -38,10 +39,24 @@ List<scalar> sphc::gradSquaredTrace(const stencil& s, const List<vec4>& phi)
             sums.add(s.list, s.cloud.x.data(), phi.data(), i, rowOf<among::all>(s.list, i));
             tensor gradU;
             for (int a = 0; a < 3; ++a) gradU.row(a) = (s.B.all[i] * sums.gradient(a)).transpose();
-            result[i] = (gradU * gradU).trace();
+            result[i] = value(gradU);
         }
     });
     return result;
+}
+
+}  // namespace
+
+List<scalar> sphc::gradSquaredTrace(const stencil& s, const List<vec4>& phi)
+{
+    return fromGradient(s, phi, [](const tensor& gradU) { return (gradU * gradU).trace(); });
+}
+
+List<scalar> sphc::shearRate(const stencil& s, const List<vec4>& phi)
+{
+    return fromGradient(s, phi, [](const tensor& gradU) {
+        return std::sqrt(0.5) * (gradU + gradU.transpose()).norm();
+    });
 }
 
 List<scalar> sphc::laplacianScale(const stencil& s)

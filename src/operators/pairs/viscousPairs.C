@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viscousPairs.H"
+#include "pairViscosity.H"
 #include "rawList.H"
 
 namespace ispf
@@ -28,9 +29,11 @@ void viscousPairs::setup(const stencil& s)
     for (label j = 0; j < s.cloud.nAll(); ++j)
         if (const label i = s.cloud.ownerOf(j); i >= 0 && s.cloud.beyondOpen(i)) c[j] = 1;
     remake(K_, s.list.index.size()), sum_.assign(s.cloud.n(), 0);
+    const pairViscosity viscosity(s.cloud);
     forPairs<among::all>(s.list, 0, s.cloud.n(), [&](label i, pairIndex k, label j) {
         const scalar other = c[j] > 0 ? c[j] : c[i];
-        K_[k] = 0.5 * (c[i] + other) * s.cloud.friction(i, j) * sphc::viscousF(s.cloud, s.list, k);
+        K_[k] = 0.5 * (c[i] + other) * s.cloud.friction(i, j) * viscosity.of(i, j) *
+                sphc::viscousF(s.cloud, s.list, k);
         sum_[i] += K_[k];
     });
     countPairs(s.list.nPairs(), sizeof(label) + 2 * sizeof(scalar));

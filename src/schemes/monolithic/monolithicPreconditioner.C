@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "monolithicPreconditioner.H"
+#include "pairViscosity.H"
 
 #include "forPairs.H"
 #include "matrixRows.H"
@@ -102,7 +103,9 @@ void monolithicPreconditioner::setup()
 {
     const fsiCase& c = system_.fsi();
     const particleCloud& cloud = c.cloud;
-    bulk_.assign(cloud.n(), c.mu);
+    const pairViscosity viscosity(cloud);
+    bulk_.resize(cloud.n());
+    forEach(0, cloud.n(), [&](label i) { bulk_[i] = c.mu * viscosity.at(i); });
     if (c.structure) stiffen();
     if (system_.tangent())
         solid_.setup(*system_.tangent(), system_.dt(), system_.diagonal(), cloud,
@@ -132,9 +135,11 @@ void monolithicPreconditioner::stiffen()
         return {S[i], 1};
     });
     const scalar mean = sum / std::max<scalar>(nFree, 1);
-    const scalar modulus = beta_ * system_.fsi().structure->shearModulus() * system_.dt();
-    forEach(0, cloud.nSolid(),
-            [&](label i) { bulk_[i] = S[i] > 0 ? system_.fsi().mu + modulus * mean / S[i] : 0; });
+    const structureModel& structure = *system_.fsi().structure;
+    forEach(0, cloud.nSolid(), [&](label i) {
+        const scalar modulus = beta_ * structure.shearModulus(i) * system_.dt();
+        bulk_[i] = S[i] > 0 ? system_.fsi().mu + modulus * mean / S[i] : 0;
+    });
 }
 
 // Eigenvalues of A_ii^-1 A lie in [least, 2 - least] in the fluid, by Gershgorin's circles.  After m sweeps Chebyshev's

@@ -56,7 +56,7 @@ void projectionLimits::keep(particleCloud& cloud) const
 scalar projectionLimits::viscous() const
 {
     const scalar h = c_.kernel->h();
-    return explicit_ && c_.mu > 0 ? viscousFactor_ * h * h / c_.nu() : none;
+    return explicit_ && c_.mu > 0 ? viscousFactor_ * h * h / c_.largestNu() : none;
 }
 
 scalar projectionLimits::stiffness() const

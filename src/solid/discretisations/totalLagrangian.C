@@ -7,13 +7,14 @@
 // The second part controls changes of volume that the constraint does not see, the third one motions that no F_k sees.
 // Entries:
 //
-//     material { type neoHookean; E 1.5e6; }      // see material.H
+//     material { type neoHookean; E 1.5e6; }      // or materials { .. }, see zoneMaterials.H
 //     zeroEnergy 0.2;                             // alpha: weight of the third part, over that of G
 //     radius     1.75;                            // reach of the neighbours of F_k [dx]
 #include "forPairs.H"
 #include "stencilTangent.H"
 #include "structureModel.H"
 #include "volumeStiffness.H"
+#include "zoneMaterials.H"
 
 #include <cmath>
 
@@ -52,14 +53,13 @@ class totalLagrangian : public structureModel
 public:
     totalLagrangian(const dictionary& dict, const structureReference& ref)
         : structureModel(ref),
-          material_(material::New(dict.subDict("material"))),
+          materials_(dict, ref.x0, ref.zone, ref.zoneNames, ref.nDims),
           zeroEnergy_(dict.getInRangeOrDefault("zeroEnergy", 0, 10, 0.2)),
           near_(within(ref_, dict.getInRangeOrDefault("radius", 1.2, 4, 1.75))),
           fit_(near_),
           pairs_(fit_.neighbours())
     {
-        G_ = material_->shearModulus();
-        volume_.kappa = volumeShare * G_;
+        G_ = materials_.stiffest();
         findActive();
         setMoments();
         tangent_ = std::make_unique<stencilTangent>(ref_, fit_, active_);
@@ -72,6 +72,7 @@ public:
     void assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const override;
     List<label> linkCounts() const override;
     word description() const override;
+    scalar shearModulus(label k) const override { return materials_.shearModulus(k); }
 
 private:
     void findActive();
@@ -89,11 +90,14 @@ private:
         return bond(x, k, p) + F * pairs_.separation(ref_, k, p);
     }
     // dW/dF of the first two parts of (5.19)
-    tensor stressOf(const tensor& F) const { return material_->stress(F) + volume_.stress(F); }
+    tensor stressOf(const tensor& F, label k) const
+    {
+        return materials_.stress(F, k) + volumeOf(k).stress(F);
+    }
+    volumeStiffness volumeOf(label k) const { return {volumeShare * materials_.shearModulus(k)}; }
     modulusMatrix modulus(const tensor& F, tangentKind kind, label k) const;
 
-    const std::unique_ptr<material> material_;
-    volumeStiffness volume_;
+    const zoneMaterials materials_;
     const scalar zeroEnergy_;        // alpha of (5.20)
     const structureReference near_;  // the solid at rest, with neighbours up to `radius`
     const referenceGradient fit_;    // F of the energy
@@ -119,7 +123,9 @@ void totalLagrangian::setMoments()
         tensor M = fit_.inverseMoment(k).inverse();
         if (ref_.nDims == 2) M(2, 2) = 0;
         moment_.push_back(M);
-        star_.push_back(active_[k] ? zeroEnergy_ * G_ * ref_.volume() * ref_.nDims / M.trace() : 0);
+        star_.push_back(active_[k] ? zeroEnergy_ * materials_.shearModulus(k) * ref_.volume() *
+                                         ref_.nDims / M.trace()
+                                   : 0);
     }
 }
 
@@ -132,9 +138,10 @@ void totalLagrangian::force(const List<vec4>& x, List<vec4>& f) const
         n(),
         [&](label begin, label end) {
             for (label k = begin; k < end; ++k)
-                P[k] = active_[k]
-                           ? tensor(stressOf(P[k]) - star_[k] / ref_.volume() * P[k] * moment_[k])
-                           : tensor(tensor::Zero());
+                P[k] =
+                    active_[k]
+                        ? tensor(stressOf(P[k], k) - star_[k] / ref_.volume() * P[k] * moment_[k])
+                        : tensor(tensor::Zero());
         },
         256);
     fit_.forces(P, f);
@@ -152,7 +159,7 @@ scalar totalLagrangian::energy(const List<vec4>& x) const
         for (label k = begin; k < end; ++k)
         {
             if (!active_[k]) continue;
-            sum += ref_.volume() * (material_->energy(F[k]) + volume_.energy(F[k]));
+            sum += ref_.volume() * (materials_.energy(F[k], k) + volumeOf(k).energy(F[k]));
             forNeighbours<among::all>(pairs_, k, [&](pairIndex p, label) {
                 sum += 0.5 * star_[k] * fit_.weight(p) * missed(x, F[k], k, p).squaredNorm();
             });
@@ -173,7 +180,7 @@ void totalLagrangian::stress(const List<vec4>& x, List<tensor>& tau) const
             for (label k = begin; k < end; ++k)
             {
                 if (!active_[k]) continue;
-                tau[k] = stressOf(F[k]) * F[k].transpose();
+                tau[k] = stressOf(F[k], k) * F[k].transpose();
                 forNeighbours<among::all>(pairs_, k, [&](pairIndex p, label) {
                     const vector e = missed(x, F[k], k, p);
                     tau[k] += star_[k] / ref_.volume() * fit_.weight(p) * e * e.transpose();
@@ -186,7 +193,7 @@ void totalLagrangian::stress(const List<vec4>& x, List<tensor>& tau) const
 // C' of (5.23)
 modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label k) const
 {
-    modulusMatrix C = material_->tangent(F) + volume_.tangent(F);
+    modulusMatrix C = materials_.tangent(F, k) + volumeOf(k).tangent(F);
     const bool plane = ref_.nDims == 2;
     if (plane) keepPlane(C);
     if (kind == tangentKind::positive) C = positivePart(C);
@@ -224,9 +231,9 @@ List<label> totalLagrangian::linkCounts() const
 
 word totalLagrangian::description() const
 {
-    return "totalLagrangian, " + material_->description() + ", G " + str(G_, 4) + " Pa, E = 3 G " +
-           str(3 * G_, 4) + " Pa, " + str(scalar(pairs_.nPairs()) / n(), 3) +
-           " neighbours per particle, zeroEnergy " + str(zeroEnergy_, 3);
+    return "totalLagrangian, " + materials_.description() + ", " +
+           str(scalar(pairs_.nPairs()) / n(), 3) + " neighbours per particle, zeroEnergy " +
+           str(zeroEnergy_, 3);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Yeoh's law of filled rubber, W = c1 i + c2 i^2 + c3 i^3 with i = I - 3 (O. H. Yeoh 1993, Rubber Chem. Technol. 66).
+// Yeoh's law of filled rubber, W = c1 i + c2 i^2 + c3 i^3 with i = tr C - 3 (O. H. Yeoh 1993, Rubber Chem. Technol. 66).
 // Entries: c1, c2, c3 [Pa]; c2 and c3 are zero by default.  G = 2 c1.  dW/di must be positive for every i > 0: else
 // the solid would give way under a growing load.
-#include "firstInvariantLaw.H"
+#include "isochoricLaw.H"
 
 namespace ispf
 {
@@ -10,7 +10,7 @@ namespace ispf
 namespace
 {
 
-class Yeoh : public firstInvariantLaw
+class Yeoh : public isochoricLaw
 {
 public:
     explicit Yeoh(const dictionary& dict)
@@ -25,13 +25,24 @@ public:
                       "least, or c2^2 below 3 c1 c3");
     }
 
+    scalar shearModulus() const override { return 2 * c1_; }
     word description() const override { return "Yeoh"; }
 
 private:
-    values at(scalar i) const override
+    scalar at(const tensor& C, label) const override
     {
-        return {i * (c1_ + i * (c2_ + i * c3_)), c1_ + i * (2 * c2_ + 3 * c3_ * i),
-                2 * c2_ + 6 * c3_ * i};
+        const scalar i = C.trace() - 3;
+        return i * (c1_ + i * (c2_ + i * c3_));
+    }
+    tensor slope(const tensor& C, label) const override
+    {
+        const scalar i = C.trace() - 3;
+        return (c1_ + i * (2 * c2_ + 3 * c3_ * i)) * tensor::Identity();
+    }
+    modulusMatrix curvature(const tensor& C, label) const override
+    {
+        const tensor one = tensor::Identity();
+        return (2 * c2_ + 6 * c3_ * (C.trace() - 3)) * dyad(one, one);
     }
 
     scalar c1_, c2_, c3_;
@@ -39,7 +50,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<material> newYeoh(const dictionary& dict)
+std::unique_ptr<material> newYeoh(const dictionary& dict, const List<vector>&, int)
 {
     return std::make_unique<Yeoh>(dict);
 }

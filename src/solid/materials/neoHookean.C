@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Incompressible neo-Hookean solid, W = G/2 (I - 3) with the first invariant I of J^(-1/3) F (Treloar 1943, Trans. Faraday
-// Soc. 39).  Entries: E = 3 G [Pa], or G [Pa].
-#include "firstInvariantLaw.H"
+// Incompressible neo-Hookean solid, W = G/2 (I - 3) with I = tr C (Treloar 1943, Trans. Faraday Soc. 39).  Entries: E = 3 G
+// [Pa], or G [Pa].
+#include "isochoricLaw.H"
 
 namespace ispf
 {
@@ -9,22 +9,25 @@ namespace ispf
 namespace
 {
 
-class neoHookean : public firstInvariantLaw
+class neoHookean : public isochoricLaw
 {
 public:
     explicit neoHookean(scalar G) : G_(G) {}
 
+    scalar shearModulus() const override { return G_; }
     word description() const override { return "neoHookean"; }
 
 private:
-    values at(scalar i) const override { return {G_ / 2 * i, G_ / 2, 0}; }
+    scalar at(const tensor& C, label) const override { return G_ / 2 * (C.trace() - 3); }
+    tensor slope(const tensor&, label) const override { return G_ / 2 * tensor::Identity(); }
+    modulusMatrix curvature(const tensor&, label) const override { return modulusMatrix::Zero(); }
 
     scalar G_;
 };
 
 }  // namespace
 
-std::unique_ptr<material> newNeoHookean(const dictionary& dict)
+std::unique_ptr<material> newNeoHookean(const dictionary& dict, const List<vector>&, int)
 {
     if (dict.found("E") == dict.found("G"))
         throw fatalError(

@@ -9,16 +9,29 @@ namespace ispf
 
 using madeMaterial = std::unique_ptr<material>;
 
-madeMaterial newNeoHookean(const dictionary&);
-madeMaterial newYeoh(const dictionary&);
+using restPlaces = List<vector>;
+
+madeMaterial newFung(const dictionary&, const restPlaces&, int nDims);
+madeMaterial newGuccione(const dictionary&, const restPlaces&, int nDims);
+madeMaterial newHolzapfelGasserOgden(const dictionary&, const restPlaces&, int nDims);
+madeMaterial newMooneyRivlin(const dictionary&, const restPlaces&, int nDims);
+madeMaterial newNeoHookean(const dictionary&, const restPlaces&, int nDims);
+madeMaterial newOgden(const dictionary&, const restPlaces&, int nDims);
+madeMaterial newYeoh(const dictionary&, const restPlaces&, int nDims);
 
 namespace
 {
 
-using maker = madeMaterial (*)(const dictionary&);
+using maker = madeMaterial (*)(const dictionary&, const restPlaces&, int);
 const std::map<word, maker>& table()
 {
-    static const std::map<word, maker> all = {{"neoHookean", newNeoHookean}, {"Yeoh", newYeoh}};
+    static const std::map<word, maker> all = {{"Fung", newFung},
+                                              {"Guccione", newGuccione},
+                                              {"HolzapfelGasserOgden", newHolzapfelGasserOgden},
+                                              {"MooneyRivlin", newMooneyRivlin},
+                                              {"neoHookean", newNeoHookean},
+                                              {"Ogden", newOgden},
+                                              {"Yeoh", newYeoh}};
     return all;
 }
 
@@ -31,9 +44,9 @@ List<word> material::kinds()
     return names;
 }
 
-std::unique_ptr<material> material::New(const dictionary& dict)
+std::unique_ptr<material> material::New(const dictionary& dict, const List<vector>& x0, int nDims)
 {
-    return table().at(dict.choose("type", kinds()))(dict);
+    return table().at(dict.choose("type", kinds()))(dict, x0, nDims);
 }
 
 }  // namespace ispf

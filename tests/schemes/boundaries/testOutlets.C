@@ -95,3 +95,38 @@ TEST_CASE(
     CHECK_ERROR(begin("outlet resistance; resistance -1;"), "resistance", 0);
     CHECK_ERROR(begin("resistance 1;"), "resistance", 0);  // without effect
 }
+
+// Plug flow as above into a Windkessel, both equations by the implicit Euler rule:
+//     (L + dt Z) Q1 + dt pC1 = L Q0 + dt P,   C (pC1 - pC0)/dt = Q1 - pC1/R
+TEST_CASE(
+    "a Windkessel: flow and pressure in its compliance over time, for short and for long times "
+    "of it, from its initial pressure on")
+{
+    for (const word coupling : {"projection", "monolithic"})
+        for (const scalar steps : {0.05, 5.0, 5e3})  // R C over dt
+        {
+            CAPTURE(coupling);
+            CAPTURE(steps);
+            constexpr scalar dt = 0.01;
+            boxCase box = channel(coupling, 1);
+            const scalar inertance = rho * box.length() / box.height(), Z = 0.3 * inertance / dt,
+                         R = 2 * inertance / dt, C = steps * dt / R, first = 0.4 * P;
+            box.patch[boxCase::right] = "type open; outlet Windkessel; p 0; proximal " +
+                                        str(Z, 17) + "; distal " + str(R, 17) + "; compliance " +
+                                        str(C, 17) + "; initialPressure " + str(first, 17) + ";";
+            runningBox run(box, "Windkessel");
+            scalar Q = 0, stored = first;
+            for (int step = 0; step < 20; ++step)
+            {
+                run.run(dt, 1);
+                // eliminate pC1
+                const scalar share = 1 / (1 + dt / (R * C)), rise = dt / C * share;
+                Q = (inertance * Q + dt * (P - share * stored)) / (inertance + dt * (Z + rise));
+                stored = share * stored + rise * Q;
+                const List<scalar> kept = run.c.cloud.state.values().at("outlet right");
+                const scalar small = 0.1 * dt * P / (inertance + dt * Z) + 1e-9;
+                CHECK(std::abs(kept.at(0) - Q) < 0.02 * std::abs(Q) + small);
+                CHECK(std::abs(kept.at(2) - stored) < 0.03 * P);
+            }
+        }
+}

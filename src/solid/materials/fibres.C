@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fibres.H"
+
+#include "expression.H"
+#include "messages.H"
+
+#include <cmath>
+#include <functional>
+
+namespace ispf
+{
+
+namespace
+{
+
+using direction = std::function<vector(const vector&)>;
+
+List<direction> uniform(const dictionary& dict)
+{
+    List<direction> all;
+    for (const vector& d : dict.get<List<vector>>("directions"))
+        all.push_back([d](const vector&) { return d; });
+    return all;
+}
+
+List<direction> helix(const dictionary& dict)
+{
+    const vector point = dict.get<vector>("point", dims::length), axis = dict.get<vector>("axis");
+    if (!(axis.norm() > 0)) dict.fail("axis", "The axis of the helices must not be zero");
+    const vector along = axis.normalized();
+    List<direction> all;
+    for (const scalar degrees : dict.get<List<scalar>>("angles"))
+    {
+        const scalar angle = degrees * M_PI / 180;
+        all.push_back([=](const vector& x) -> vector {
+            const vector around = along.cross(x - point);
+            if (!(around.norm() > 0)) return vector::Zero();
+            return std::cos(angle) * around.normalized() + std::sin(angle) * along;
+        });
+    }
+    return all;
+}
+
+List<direction> formula(const dictionary& dict)
+{
+    List<direction> all;
+    for (label family = 1;; ++family)
+    {
+        const word key = "direction" + std::to_string(family);
+        if (family > 1 && !dict.found(key)) return all;
+        List<std::shared_ptr<expression>> parts;
+        for (const word& text : dict.get<List<word>>(key))
+            parts.push_back(std::make_shared<expression>(
+                text, List<word>{"x", "y", "z"}, std::map<word, scalar>{}, dict.where(key)));
+        if (parts.size() != 3)
+            dict.fail(key, "A direction has three formulas of x, y and z, not " +
+                               std::to_string(parts.size()));
+        all.push_back([parts](const vector& x) -> vector {
+            const List<scalar> at = {x[0], x[1], x[2]};
+            return {(*parts[0])(at), (*parts[1])(at), (*parts[2])(at)};
+        });
+    }
+}
+
+}  // namespace
+
+fibreDirections::fibreDirections(const dictionary& dict, const List<vector>& x0, int nDims)
+{
+    const std::map<word, List<direction> (*)(const dictionary&)> kinds = {
+        {"uniform", uniform}, {"helix", helix}, {"formula", formula}};
+    const word kind = dict.choose("type", {"uniform", "helix", "formula"});
+    for (const direction& at : kinds.at(kind)(dict))
+    {
+        family_.emplace_back();
+        for (const vector& x : x0)
+        {
+            vector d = at(x);
+            if (nDims == 2) d[2] = 0;
+            if (!(d.norm() > 0))
+                dict.fail("type", "The fibres of family " + std::to_string(family_.size()) +
+                                      " have no direction at (" + str(x[0]) + " " + str(x[1]) +
+                                      " " + str(x[2]) + ")");
+            family_.back().push_back(d.normalized());
+        }
+    }
+    if (family_.empty()) dict.fail("type", "The dictionary gives no direction");
+}
+
+tensor fibreDirections::axes(label k) const
+{
+    tensor Q;
+    Q.col(0) = of(0, k);
+    vector second = nFamilies() > 1 ? of(1, k) : vector(of(0, k).unitOrthogonal());
+    second -= second.dot(Q.col(0)) * Q.col(0);
+    Q.col(1) = second.norm() > 1e-6 ? vector(second.normalized()) : of(0, k).unitOrthogonal();
+    Q.col(2) = vector(Q.col(0)).cross(vector(Q.col(1)));
+    return Q;
+}
+
+}  // namespace ispf

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "zoneMaterials.H"
+
+#include "messages.H"
+
+#include <algorithm>
+
+namespace ispf
+{
+
+zoneMaterials::zoneMaterials(const dictionary& dict, const List<vector>& x0,
+                             const List<label>& zone, const List<word>& zoneNames, int nDims)
+    : law_(x0.size(), 0), place_(x0.size())
+{
+    if (dict.found("material") == dict.found("materials"))
+        throw fatalError(
+            "structureModel totalLagrangian needs exactly one of 'material { .. }', for all zones, "
+            "and 'materials { <zone> { .. } .. }'",
+            dict.where());
+    if (dict.found("material"))
+    {
+        for (label k = 0; k < label(x0.size()); ++k) place_[k] = k;
+        laws_.push_back(material::New(dict.subDict("material"), x0, nDims));
+    }
+    else
+    {
+        const dictionary materials = dict.subDict("materials");
+        List<word> solid;
+        for (label z = 0; z < label(zoneNames.size()); ++z)
+        {
+            List<vector> places;
+            for (label k = 0; k < label(x0.size()); ++k)
+                if (zone[k] == z)
+                    law_[k] = label(laws_.size()), place_[k] = label(places.size()),
+                    places.push_back(x0[k]);
+            if (places.empty()) continue;
+            solid.push_back(zoneNames[z]);
+            if (!materials.found(zoneNames[z]))
+                throw fatalError("'materials' has no material for the zone " + zoneNames[z],
+                                 materials.where());
+            laws_.push_back(material::New(materials.subDict(zoneNames[z]), places, nDims));
+        }
+        for (const word& key : materials.keys())
+            if (std::find(solid.begin(), solid.end(), key) == solid.end())
+                materials.fail(key,
+                               "No solid particle is in a zone of this name; zones of solid: " +
+                                   join(solid, " "));
+        names_ = solid;
+    }
+    for (const auto& law : laws_) modulus_.push_back(law->shearModulus());
+}
+
+scalar zoneMaterials::stiffest() const
+{
+    return *std::max_element(modulus_.begin(), modulus_.end());
+}
+
+word zoneMaterials::description() const
+{
+    List<word> each;
+    for (size_t m = 0; m < laws_.size(); ++m)
+        each.push_back((names_.empty() ? "" : names_[m] + " ") + laws_[m]->description() + ", G " +
+                       str(modulus_[m], 4) + " Pa, E = 3 G " + str(3 * modulus_[m], 4) + " Pa");
+    return join(each, "; ");
+}
+
+}  // namespace ispf
