@@ -46,8 +46,8 @@ fsiCase::fsiCase(Time& t) : time(t)
 void fsiCase::readBoundary()
 {
     const dictionary patches = dictionary::fromFile(time.constantFile("boundary"));
-    walls =
-        std::make_unique<boundary>(caseFolder(), patches, cloud, kernel->support(), time.value());
+    walls = std::make_unique<boundary>(caseFolder(), patches, cloud, kernel->support(),
+                                       time.value(), nu());
     const auto rest = cloud.vectors.find("x0");
     walls->clampSolids(cloud, rest == cloud.vectors.end() ? List<vec4>() : rest->second, patches);
     restoreBalance(cloud, *walls);
@@ -163,8 +163,8 @@ static List<List<label>> freeBodies(const blockMatrix3& pattern, const List<char
 
 void fsiCase::readStructure()
 {
-    const dictionary properties =
-        dictionary::fromFileIfPresent(time.constantFile("structureProperties"));
+    structureProperties = dictionary::fromFileIfPresent(time.constantFile("structureProperties"));
+    const dictionary& properties = structureProperties;
     if (properties.empty())
     {
         if (cloud.nSolid() > 0)

@@ -8,6 +8,7 @@
 #include "scene.H"
 
 #include <cmath>
+#include <complex>
 #include <doctest/doctest.h>
 
 using namespace ispf;
@@ -33,10 +34,11 @@ struct face
         mesh = faceMesh(surface, group, cloud);
     }
     inflow given(
-        const word& text, faceMesh::heldRim held = [](const vector&) { return true; }) const
+        const word& text, faceMesh::heldRim held = [](const vector&) { return true; },
+        scalar nu = 1e-6) const
     {
         inflow q(dictionary::fromString(text), ".",
-                 {mesh, held, group.symmetryFactor(), mesh.normal(), dims::flowRate});
+                 {mesh, held, group.symmetryFactor(), mesh.normal(), dims::flowRate, nu});
         q.setStep(0, 1);
         return q;
     }
@@ -102,7 +104,8 @@ TEST_CASE("a profile by table, a direction, a vector, and what cannot be")
         const inflow grows = f.given("velocity " + v + (v[0] == '{' ? "" : ";"));
         CHECK((grows.velocity({0, 0, 0}, n) - vector(0.2, 0, -0.1)).norm() < 1e-12);
     }
-    CHECK_ERROR(f.given("velocity table ((0 (0 0 1)) (1 (1 0 1)));"), "direction of the velocity changes", 1);
+    CHECK_ERROR(f.given("velocity table ((0 (0 0 1)) (1 (1 0 1)));"),
+                "direction of the velocity changes", 1);
     CHECK_ERROR(f.given("velocity table ((0 0.1) (1 x));"), "finite number is wanted", 1);
 
     // errors of a vector are reported too
@@ -116,4 +119,71 @@ TEST_CASE("a profile by table, a direction, a vector, and what cannot be")
     CHECK_THROWS_AS(f.given("flowRate 1 [m/s];"), fatalError);
     CHECK_THROWS_AS(inflow::given(dictionary::fromString("p 0; velocity 1;")), fatalError);
     CHECK_THROWS_AS(inflow::given(dictionary::fromString("profile flat;")), fatalError);
+}
+
+namespace
+{
+
+using complexNumber = std::complex<scalar>;
+
+// Bessel's function of order 0 or 1 by its power series
+complexNumber Bessel(int order, complexNumber z)
+{
+    complexNumber term = order == 0 ? complexNumber(1) : 0.5 * z, sum = term;
+    for (int k = 1; k < 60; ++k) term *= -0.25 * z * z / scalar(k * (k + order)), sum += term;
+    return sum;
+}
+
+}  // namespace
+
+// J. R. Womersley 1955, J. Physiol. 127: w over the mean velocity for the flow Re(exp(i omega t))
+TEST_CASE(
+    "profile Womersley: an oscillating flow in a pipe, a quarter of it and between plates; a "
+    "restart continues it")
+{
+    constexpr scalar frequency = 1, alpha = 4, nu = R * R * 2 * M_PI * frequency / (alpha * alpha);
+    const complexNumber I(0, 1), L = std::pow(I, 1.5) * alpha;
+    const auto inPipe = [&](scalar r) {
+        return (Bessel(0, L) - Bessel(0, L * r)) / (Bessel(0, L) - 2.0 * Bessel(1, L) / L);
+    };
+    const auto betweenPlates = [&](scalar y) {  // y from -1 to 1, half the distance is R/2
+        const complexNumber l = std::sqrt(I) * alpha / 2.0;
+        return (1.0 - std::cosh(l * y) / std::cosh(l)) / (1.0 - std::tanh(l) / l);
+    };
+    const vector n(0, 0, 1);
+    constexpr int perPeriod = 200;
+    const word text = "velocity { type sine; amplitude 0.1; frequency 1; } profile Womersley;";
+    const auto run = [&](inflow& q, const auto& exact, const auto& pointAt, bool restarts) {
+        List<scalar> kept;
+        scalar worst = 0;
+        for (int step = 0; step < 4 * perPeriod; ++step)
+        {
+            const scalar dt = 1 / (frequency * perPeriod), t = step * dt;
+            q.setStep(t, t + dt);
+            const List<scalar> first = q.develop(kept);
+            if (restarts) CHECK(q.develop(kept) == first);  // a step that is repeated
+            kept = first;
+            CHECK(q.develop(kept) == first);  // after it has been accepted
+            if (step < 3 * perPeriod) continue;
+            const complexNumber phase = -I * std::exp(I * (2 * M_PI * frequency * (t + dt / 2)));
+            for (const scalar at : {0.0, 0.3, 0.6, 0.9})
+                worst = std::max(worst, std::abs(-q.velocity(pointAt(at), n)[2] -
+                                                 0.1 * (exact(at) * phase).real()));
+        }
+        return worst / 0.1;
+    };
+    for (const bool quarter : {false, true})
+    {
+        const face f(disc(), quarter);
+        inflow q = f.given(
+            text, [](const vector&) { return true; }, nu);
+        const auto at = [](scalar r) -> vector { return {r * R * 0.8, r * R * 0.6, 0}; };
+        CHECK(run(q, inPipe, at, quarter) < 0.03);
+        CHECK(q.speed() > 10 * std::abs(q.mean()));  // the flow turns, the profile does not
+    }
+    const face square(scene::sheet({0, 0, 0}, {R, 0, 0}, {0, R, 0}), false);
+    inflow q = square.given(
+        text, [](const vector& x) { return x[1] < dx / 10 || x[1] > R - dx / 10; }, nu);
+    const auto at = [](scalar y) -> vector { return {R / 2, R / 2 * (1 + y), 0}; };
+    CHECK(run(q, betweenPlates, at, false) < 0.03);
 }

@@ -30,7 +30,7 @@ const std::set<word> withFibres = {"Fung", "HolzapfelGasserOgden", "Guccione"};
 
 std::unique_ptr<material> law(const word& text)
 {
-    return material::New(dictionary::fromString(text), {vector(1, 2, 0)}, 3);
+    return material::New(dictionary::fromString(text), {vector(1, 2, 0)});
 }
 
 std::map<word, std::unique_ptr<material>> all()

@@ -4,8 +4,6 @@
 #include "patchSurface.H"
 #include "token.H"
 
-#include <Eigen/Sparse>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -89,14 +87,15 @@ void inflow::setDirection(const dictionary& dict, const word& key, const vector&
                   "points along the face or, as a direction, out of the fluid. The face's outward "
                   "normal is (" +
                       str(normal[0], 3) + " " + str(normal[1], 3) + " " + str(normal[2], 3) + ")");
-    direction_ /= in, most_ = direction_.norm();
+    direction_ /= in, slant_ = most_ = direction_.norm();
 }
 
 void inflow::setProfile(const dictionary& dict, const word& caseFolder, const place& at)
 {
     if (!dict.found("profile")) return;
     const bool isTable = dict.isDict("profile") || dict.tokenList("profile").size() > 1;
-    const word name = isTable ? "table" : dict.choose("profile", {"flat", "parabolic", "table"});
+    const word name =
+        isTable ? "table" : dict.choose("profile", {"flat", "parabolic", "Womersley", "table"});
     if (name == "flat") return;
     if (face_.empty())
         dict.fail("profile",
@@ -107,47 +106,29 @@ void inflow::setProfile(const dictionary& dict, const word& caseFolder, const pl
         dict.fail(
             "profile",
             "No wall holds the fluid at the rim of this face: leave the profile away, it is flat");
-    if (name == "parabolic") parabolic(held);
+    if (name == "parabolic" || name == "Womersley") parabolic(held);
     else tabulated(*Function1::New("profile", dict, caseFolder, dims::none), held);
     const scalar mean = face_.mean(profile_);
     if (!(mean > 0))
-        dict.fail("profile", name == "parabolic"
+        dict.fail("profile", name != "table"
                                  ? "The face's triangles are too coarse to hold a profile"
                                  : "The mean of the profile over the face must be positive");
     for (scalar& w : profile_) w /= mean;
+    if (name == "Womersley")
+    {
+        if (!(at.nu > 0))
+            dict.fail("profile", "Womersley's profile needs a fluid with a viscosity");
+        developing_ = std::make_unique<developingProfile>(face_, held, at.nu, profile_);
+    }
     most_ *= *std::max_element(profile_.begin(), profile_.end());
 }
 
-// Solves with linear finite elements on the triangles of the face; natural condition where no wall holds the fluid
+// -lap w = 1; natural condition where no wall holds the fluid
 void inflow::parabolic(const List<char>& held)
 {
-    const triSurface& s = face_.surface();
-    const label n = label(s.nodes.size());
-    List<Eigen::Triplet<scalar>> entries;
-    Eigen::VectorXd load = Eigen::VectorXd::Zero(n);
-    for (label t = 0; t < s.size(); ++t)
-    {
-        const scalar area = s.areaVector(t).norm();
-        for (int a = 0; a < 3; ++a)
-        {
-            const label i = s.triangles[t][a];
-            if (held[i]) continue;
-            load[i] += area / 3;
-            const vector ea = s.corner(t, (a + 2) % 3) - s.corner(t, (a + 1) % 3);
-            for (int b = 0; b < 3; ++b)
-            {
-                const vector eb = s.corner(t, (b + 2) % 3) - s.corner(t, (b + 1) % 3);
-                if (const label j = s.triangles[t][b]; !held[j])
-                    entries.emplace_back(i, j, ea.dot(eb) / (4 * area));
-            }
-        }
-    }
-    for (label i = 0; i < n; ++i)
-        if (held[i]) entries.emplace_back(i, i, 1);
-    Eigen::SparseMatrix<scalar> K(n, n);
-    K.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::VectorXd w = Eigen::SimplicialLDLT<Eigen::SparseMatrix<scalar>>(K).solve(load);
-    profile_.assign(w.data(), w.data() + n);
+    const faceElements elements(face_, held);
+    const Eigen::VectorXd w = elements.factorised(0)->solve(elements.lumped);
+    profile_.assign(w.data(), w.data() + w.size());
 }
 
 void inflow::tabulated(const Function1& profile, const List<char>& held)
@@ -165,11 +146,26 @@ void inflow::setStep(scalar t0, scalar t1)
 {
     const scalar t = 0.5 * (t0 + t1);
     mean_ = rate_ ? perRate_ * rate_->value(t) : -velocity_->value(t).dot(normal_);
+    start_ = t0, end_ = t1;
+}
+
+// kept and the result: time of the profile, then its values.  Function objects ask after the step has been accepted
+List<scalar> inflow::develop(const List<scalar>& kept)
+{
+    if (!developing_) return {};
+    const bool over = !kept.empty() && kept[0] > 0.5 * (start_ + end_);
+    List<scalar> now = {end_};
+    const List<scalar> before(kept.begin() + (kept.empty() ? 0 : 1), kept.end());
+    const List<scalar>& w = developing_->advance(before, over ? 0 : end_ - start_, mean_);
+    now.insert(now.end(), w.begin(), w.end());
+    return now;
 }
 
 vector inflow::velocity(const vector& foot, const vector& normal) const
 {
-    const scalar u = mean_ * (profile_.empty() ? 1 : face_.interpolate(profile_, foot));
+    const scalar u = developing_
+                         ? face_.interpolate(developing_->values(), foot)
+                         : mean_ * (profile_.empty() ? 1 : face_.interpolate(profile_, foot));
     return u * direction(normal);
 }
 

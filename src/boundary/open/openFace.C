@@ -51,7 +51,7 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
         inflow_ = std::make_unique<inflow>(
             dict, caseFolder,
             inflow::place{mesh_, s.isHeld, images_, outward,
-                          s.cloud.nDims == 3 ? dims::flowRate : dims::kinematicViscosity});
+                          s.cloud.nDims == 3 ? dims::flowRate : dims::kinematicViscosity, s.nu});
         return;
     }
     p_ = std::make_unique<outletPressure>(outlet::New(dict, caseFolder));
@@ -84,6 +84,7 @@ bool openFace::agrees(const particleCloud& cloud, scalar rho, scalar dt) const
 void openFace::accept(particleCloud& cloud, scalar t0, scalar t1) const
 {
     if (p_) cloud.state.set(outletState(), p_->accept({t0, t1}, images_ * flux_));
+    if (!developed_.empty()) cloud.state.set(profileState(), developed_);
 }
 
 scalar openFace::weight(scalar q)

@@ -67,6 +67,7 @@ void openFace::setVelocity(particleCloud& cloud, label number) const
 {
     List<vec4>& velocity = cloud.vectors[givenVelocity];
     velocity.resize(cloud.n(), vec4{});
+    developed_ = inflow_->develop(cloud.state.get(profileState(), {}));
     parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
         for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
         {

@@ -8,11 +8,11 @@ namespace ispf
 {
 
 boundary::boundary(const word& caseFolder, const dictionary& patches, const particleCloud& cloud,
-                   scalar support, scalar t0)
+                   scalar support, scalar t0, scalar nu)
     : content_(std::make_unique<content>())
 {
     content& c = *content_;
-    const patchSetting s{caseFolder, patches, cloud, support, c.group, c.walls, c.patches};
+    const patchSetting s{caseFolder, patches, cloud, support, nu, c.group, c.walls, c.patches};
     for (const word& name : patches.dictKeys())
     {
         c.patches.push_back(patch::New(name, s));

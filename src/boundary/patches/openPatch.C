@@ -98,7 +98,7 @@ void openPatch::makeFace(const patchSetting& s)
     const auto isHeld = [&walls = s.walls](const vector& x) { return walls.holds(x); };
     face_ = std::make_unique<openFace>(
         name(), s.patches.subDict(name()), s.caseFolder,
-        openFace::setting{s.group, s.cloud, s.sites().stripLayers(), meshOf(s), isHeld});
+        openFace::setting{s.group, s.cloud, s.sites().stripLayers(), meshOf(s), isHeld, s.nu});
 }
 
 void openPatch::fill(const patchSetting& s)

@@ -17,14 +17,53 @@ elasticStep::entries::entries(const dictionary& dict)
 elasticStep::elasticStep(const structureModel* structure, const entries& e)
     : structure_(structure), entries_(e)
 {
-    if (structure) K_ = structure->tangentPattern();
+    if (!structure) return;
+    K_ = structure->tangentPattern();
+    if (structure->damps()) D_ = structure->tangentPattern();
 }
 
 void elasticStep::begin(List<vec4> x0, scalar tau)
 {
     x0_ = std::move(x0), tau_ = tau, pass_ = 0, first_ = last_ = 0;
+    outside_.clear(), resists_.clear();
     structure_->force(x0_, force_);
     structure_->assembleTangent(x0_, tangentKind::positive, K_);
+    if (!structure_->damps()) return;
+    structure_->assembleDamping(x0_, D_);
+    includeDamping();
+}
+
+// D is that of x_0 in all passes
+void elasticStep::includeDamping()
+{
+    if (!structure_->damps()) return;
+    forEach(0, label(K_.value.size()), [&](label e) { K_.value[e] += D_.value[e] / tau_; });
+    forEach(0, structure_->n(), [&](label i) { K_.diagonal[i] += D_.diagonal[i] / tau_; });
+}
+
+scalar elasticStep::dissipated(const List<vec4>& u) const
+{
+    if (!structure_ || !structure_->damps()) return 0;
+    List<vec4> Du(structure_->n());
+    D_.apply(u, Du);
+    return -tau_ * sumOf(0, structure_->n(),
+                         [&](label i) -> scalar { return u[i].xyz().dot(Du[i].xyz()); });
+}
+
+void elasticStep::addOutside(const List<vec4>& f, const List<scalar>& D)
+{
+    outside_ = f, resists_ = D;
+    includeOutside();
+}
+
+void elasticStep::includeOutside()
+{
+    if (outside_.empty()) return;
+    forEach(0, structure_->n(), [&](label i) {
+        force_[i].s += outside_[i].s;
+        for (int a = 0; a < structure_->reference().nDims; ++a)
+            K_.diagonal[i](a, a) += resists_[i] / tau_;
+    });
 }
 
 // Moves the iterate to the end of the step, and returns the root of the mean square of d/A over the free solid
@@ -40,12 +79,16 @@ scalar elasticStep::residual(const List<scalar>& z, const List<scalar>& A,
     }
     structure_->force(x_, f_);
     K_.apply(u_, Ku_);
+    List<vec4> Du;
+    if (structure_->damps()) Du.resize(n), D_.apply(u_, Du);
     scalar sum = 0;
     label nFree = 0;
     for (label i = 0; i < n; ++i)
     {
         if (cloud.uFixed[i]) continue;
-        const simd4 d = f_[i].s - force_[i].s + tau_ * Ku_[i].s;
+        simd4 d = f_[i].s - force_[i].s + tau_ * Ku_[i].s;
+        if (!outside_.empty()) d += outside_[i].s - resists_[i] * u_[i].s;
+        if (!Du.empty()) d -= Du[i].s;
         sum += vec4{d}.xyz().squaredNorm() / (A[i] * A[i]), ++nFree;
     }
     return std::sqrt(sum / std::max<label>(nFree, 1));
@@ -66,6 +109,7 @@ bool elasticStep::again(const List<scalar>& z, const List<scalar>& A, const part
     structure_->assembleTangent(x_, tangentKind::full, K_);
     K_.apply(u_, Ku_);
     forEach(0, structure_->n(), [&](label i) { force_[i].s = f_[i].s + tau_ * Ku_[i].s; });
+    includeOutside(), includeDamping();
     return true;
 }
 

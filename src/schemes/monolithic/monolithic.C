@@ -19,6 +19,7 @@
 #include "FGMRES.H"
 #include "fluidSources.H"
 #include "monolithicPreconditioner.H"
+#include "outsideWall.H"
 #include "particleShifting.H"
 #include "shiftingFrame.H"
 #include "stepReport.H"
@@ -86,7 +87,11 @@ public:
                     shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx))
     {
         time_.keepLevels();
-        if (c.structure) volume_ = std::make_unique<volumeConstraint>(*c.structure);
+        if (c.structure)
+        {
+            volume_ = std::make_unique<volumeConstraint>(*c.structure);
+            outside_ = outsideWall::New(c.structureProperties, c.caseFolder());
+        }
         addSources(e);
     }
 
@@ -98,6 +103,7 @@ private:
     void addSources(const monolithicEntries& e);
     void begin(scalar t, scalar dt);
     void structureState();
+    void outsideState();
     void assemble();
     List<scalar> guess() const;
     void accept(const List<scalar>& z);
@@ -118,6 +124,7 @@ private:
 
     std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
+    std::unique_ptr<outsideWall> outside_;  // null: nothing is outside the solid
     List<tensor> F_;
     volumeSources sources_;
     List<scalar> q_;     // their sum in the step [1/s]
@@ -166,9 +173,18 @@ void monolithic::structureState()
     elastic_.begin(time_.elasticStart(c_.cloud), time_.tau());
     c_.structure->deformationGradient(c_.cloud.x, F_);
     const List<isometry>& images = c_.structure->reference().images;
-    surface_.initialise(c_.cloud, c_.list, F_, images);
+    surface_.initialise(c_.cloud, c_.list, F_, images, bool(outside_));
     volume_->setup(F_);
     surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
+}
+
+// Call once the hydrostatic part of p is known
+void monolithic::outsideState()
+{
+    if (!outside_) return;
+    outside_->setStep(c_, surface_, system_.hydrostatic(),
+                      {time_.tau(), time_.times().pressures, time_.elasticStart(c_.cloud)});
+    elastic_.addOutside(outside_->force(), outside_->resistance());
 }
 
 // Extrapolates the change of the last step.  If the pressure rises steadily, this guess is nearer to the
@@ -285,6 +301,7 @@ void monolithic::begin(scalar t, scalar dt)
     energy_.begin(time_.startPlaces(cloud));
     structureState();
     system_.hydrostatic().take(cloud);
+    outsideState();
     time_.begin(cloud);
 }
 
@@ -303,8 +320,13 @@ word monolithic::attempt(scalar t, scalar dt)
     });
     if (!fails.empty()) return fails;
     accept(z);
-    energy_.weigh(time_.weight(),  // (7.4)
-                  [&] { system_.book(start, theta_, elastic_.force(), q_, energy_); });
+    energy_.weigh(time_.weight(), [&] {  // (7.4)
+        system_.book(start, theta_, elastic_.force(), q_, energy_);
+        const scalar lost = elastic_.dissipated(cloud.Up);
+        const scalar work = outside_ ? outside_->work(cloud, time_.tau()) : 0;
+        energy_[energyLedger::springs] -= work + lost;
+        energy_[energyLedger::forces] += work, energy_[energyLedger::viscosity] += lost;
+    });
     if (outletsDiffer(time_.tau())) return outletsAsk;  // (4.11)
     if (const word reason = tooFar(dt, c_.time.adjustTimeStep()); !reason.empty()) return reason;
     sources_.book(dt);                                                            // (5.12), (7.5)

@@ -81,6 +81,10 @@ public:
                        "entry to do. "
                        "Leave it away, or take ddtScheme Euler in system/sphSchemes");
         };
+        if (c.structureProperties.found("outside"))
+            c.structureProperties.fail("outside",
+                                       "coupling projection knows nothing outside the solid. Take "
+                                       "coupling monolithic, or surround the solid with fluid");
         if (time_.secondOrder() && mean_) refuse("positionUpdate");
         if (time_.secondOrder() && dict_.getOrDefault<scalar>("reflection", 0) > 0)
             refuse("reflection");

@@ -41,6 +41,20 @@ void keepPlane(modulusMatrix& C)
     for (const int across : {2, 5, 6, 7, 8}) C.row(across).setZero(), C.col(across).setZero();
 }
 
+// dP of the viscous stress over a change dF of the velocity gradient, per viscosity, (5.28)
+modulusMatrix viscousModulus(const tensor& F)
+{
+    const tensor inverse = F.inverse(), square = inverse * inverse.transpose();
+    modulusMatrix C;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r)
+            for (int d = 0; d < 3; ++d)
+                for (int s = 0; s < 3; ++s)
+                    C(r + 3 * c, s + 3 * d) =
+                        (r == s ? square(d, c) : 0) + inverse(d, r) * inverse(c, s);
+    return C;
+}
+
 structureReference within(structureReference ref, scalar radius)
 {
     // includes a shell of lattice neighbours at exactly the radius
@@ -53,7 +67,7 @@ class totalLagrangian : public structureModel
 public:
     totalLagrangian(const dictionary& dict, const structureReference& ref)
         : structureModel(ref),
-          materials_(dict, ref.x0, ref.zone, ref.zoneNames, ref.nDims),
+          materials_(dict, ref.x0, ref.zone, ref.zoneNames),
           zeroEnergy_(dict.getInRangeOrDefault("zeroEnergy", 0, 10, 0.2)),
           near_(within(ref_, dict.getInRangeOrDefault("radius", 1.2, 4, 1.75))),
           fit_(near_),
@@ -70,6 +84,8 @@ public:
     void stress(const List<vec4>& x, List<tensor>& tau) const override;
     blockMatrix3 tangentPattern() const override { return tangent_->pattern(); }
     void assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const override;
+    bool damps() const override { return materials_.damps(); }
+    void assembleDamping(const List<vec4>& x, blockMatrix3& D) const override;
     List<label> linkCounts() const override;
     word description() const override;
     scalar shearModulus(label k) const override { return materials_.shearModulus(k); }
@@ -220,6 +236,26 @@ void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, blo
         },
         64);
     tangent_->assemble(C, star_, K);
+}
+
+// (5.29)
+void totalLagrangian::assembleDamping(const List<vec4>& x, blockMatrix3& D) const
+{
+    List<tensor> F;
+    fit_.apply(x, F);
+    List<modulusMatrix> C(active_.size(), modulusMatrix::Zero());
+    parallelFor(
+        n(),
+        [&](label begin, label end) {
+            for (label k = begin; k < end; ++k)
+            {
+                if (!active_[k] || materials_.viscosity(k) == 0) continue;
+                C[k] = ref_.volume() * materials_.viscosity(k) * viscousModulus(F[k]);
+                if (ref_.nDims == 2) keepPlane(C[k]);
+            }
+        },
+        64);
+    tangent_->assemble(C, List<scalar>(active_.size(), 0), D);
 }
 
 List<label> totalLagrangian::linkCounts() const

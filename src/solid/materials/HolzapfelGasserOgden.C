@@ -20,12 +20,12 @@ namespace
 class HolzapfelGasserOgden : public isochoricLaw
 {
 public:
-    HolzapfelGasserOgden(const dictionary& dict, const List<vector>& x0, int nDims)
+    HolzapfelGasserOgden(const dictionary& dict, const List<vector>& x0)
         : G_(dict.getInRange("G", 1e-12, 1e15, dims::pressure)),
           k1_(dict.getInRange("k1", 0, 1e15, dims::pressure)),
           k2_(dict.getInRange("k2", 1e-12, 1e6)),
           kappa_(dict.getInRangeOrDefault("kappa", 0, 1.0 / 3, 0)),
-          fibres_(dict.subDict("fibres"), x0, nDims)
+          fibres_(dict.subDict("fibres"), x0)
     {
     }
 
@@ -83,10 +83,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<material> newHolzapfelGasserOgden(const dictionary& dict, const List<vector>& x0,
-                                                  int nDims)
+std::unique_ptr<material> newHolzapfelGasserOgden(const dictionary& dict, const List<vector>& x0)
 {
-    return std::make_unique<HolzapfelGasserOgden>(dict, x0, nDims);
+    return std::make_unique<HolzapfelGasserOgden>(dict, x0);
 }
 
 }  // namespace ispf

@@ -43,7 +43,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<material> newMooneyRivlin(const dictionary& dict, const List<vector>&, int)
+std::unique_ptr<material> newMooneyRivlin(const dictionary& dict, const List<vector>&)
 {
     return std::make_unique<MooneyRivlin>(dict);
 }

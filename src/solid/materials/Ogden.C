@@ -102,7 +102,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<material> newOgden(const dictionary& dict, const List<vector>&, int)
+std::unique_ptr<material> newOgden(const dictionary& dict, const List<vector>&)
 {
     return std::make_unique<Ogden>(dict);
 }

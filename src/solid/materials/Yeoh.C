@@ -50,7 +50,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<material> newYeoh(const dictionary& dict, const List<vector>&, int)
+std::unique_ptr<material> newYeoh(const dictionary& dict, const List<vector>&)
 {
     return std::make_unique<Yeoh>(dict);
 }

@@ -36,8 +36,8 @@ class exponentialLaw : public isochoricLaw
 {
 public:
     exponentialLaw(const word& name, scalar c, const form& B, const dictionary& dict,
-                   const List<vector>& x0, int nDims)
-        : name_(name), c_(c), B_(B), fibres_(dict.subDict("fibres"), x0, nDims)
+                   const List<vector>& x0)
+        : name_(name), c_(c), B_(B), fibres_(dict.subDict("fibres"), x0)
     {
     }
 
@@ -108,7 +108,7 @@ void checkPositive(const form& B, const dictionary& dict, const word& key)
 
 }  // namespace
 
-std::unique_ptr<material> newFung(const dictionary& dict, const List<vector>& x0, int nDims)
+std::unique_ptr<material> newFung(const dictionary& dict, const List<vector>& x0)
 {
     const auto numbers = [&](const word& key, size_t n) {
         const List<scalar> b = dict.get<List<scalar>>(key);
@@ -127,10 +127,10 @@ std::unique_ptr<material> newFung(const dictionary& dict, const List<vector>& x0
     }
     checkPositive(B, dict, "normal");
     return std::make_unique<exponentialLaw>(
-        "Fung", dict.getInRange("c", 1e-12, 1e15, dims::pressure), B, dict, x0, nDims);
+        "Fung", dict.getInRange("c", 1e-12, 1e15, dims::pressure), B, dict, x0);
 }
 
-std::unique_ptr<material> newGuccione(const dictionary& dict, const List<vector>& x0, int nDims)
+std::unique_ptr<material> newGuccione(const dictionary& dict, const List<vector>& x0)
 {
     const scalar bf = dict.getInRange("bf", 1e-12, 1e6), bt = dict.getInRange("bt", 1e-12, 1e6),
                  bfs = dict.getInRange("bfs", 1e-12, 1e6);
@@ -138,7 +138,7 @@ std::unique_ptr<material> newGuccione(const dictionary& dict, const List<vector>
     add(B, bf, 0, 0, 0, 0), add(B, bt, 1, 1, 1, 1), add(B, bt, 2, 2, 2, 2);
     add(B, 2 * bt, 1, 2, 1, 2), add(B, 2 * bfs, 0, 1, 0, 1), add(B, 2 * bfs, 0, 2, 0, 2);
     return std::make_unique<exponentialLaw>(
-        "Guccione", dict.getInRange("C", 1e-12, 1e15, dims::pressure), B, dict, x0, nDims);
+        "Guccione", dict.getInRange("C", 1e-12, 1e15, dims::pressure), B, dict, x0);
 }
 
 }  // namespace ispf

@@ -64,7 +64,7 @@ List<direction> formula(const dictionary& dict)
 
 }  // namespace
 
-fibreDirections::fibreDirections(const dictionary& dict, const List<vector>& x0, int nDims)
+fibreDirections::fibreDirections(const dictionary& dict, const List<vector>& x0)
 {
     const std::map<word, List<direction> (*)(const dictionary&)> kinds = {
         {"uniform", uniform}, {"helix", helix}, {"formula", formula}};
@@ -75,7 +75,6 @@ fibreDirections::fibreDirections(const dictionary& dict, const List<vector>& x0,
         for (const vector& x : x0)
         {
             vector d = at(x);
-            if (nDims == 2) d[2] = 0;
             if (!(d.norm() > 0))
                 dict.fail("type", "The fibres of family " + std::to_string(family_.size()) +
                                       " have no direction at (" + str(x[0]) + " " + str(x[1]) +

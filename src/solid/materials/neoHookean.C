@@ -27,7 +27,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<material> newNeoHookean(const dictionary& dict, const List<vector>&, int)
+std::unique_ptr<material> newNeoHookean(const dictionary& dict, const List<vector>&)
 {
     if (dict.found("E") == dict.found("G"))
         throw fatalError(

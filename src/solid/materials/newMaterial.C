@@ -11,18 +11,18 @@ using madeMaterial = std::unique_ptr<material>;
 
 using restPlaces = List<vector>;
 
-madeMaterial newFung(const dictionary&, const restPlaces&, int nDims);
-madeMaterial newGuccione(const dictionary&, const restPlaces&, int nDims);
-madeMaterial newHolzapfelGasserOgden(const dictionary&, const restPlaces&, int nDims);
-madeMaterial newMooneyRivlin(const dictionary&, const restPlaces&, int nDims);
-madeMaterial newNeoHookean(const dictionary&, const restPlaces&, int nDims);
-madeMaterial newOgden(const dictionary&, const restPlaces&, int nDims);
-madeMaterial newYeoh(const dictionary&, const restPlaces&, int nDims);
+madeMaterial newFung(const dictionary&, const restPlaces&);
+madeMaterial newGuccione(const dictionary&, const restPlaces&);
+madeMaterial newHolzapfelGasserOgden(const dictionary&, const restPlaces&);
+madeMaterial newMooneyRivlin(const dictionary&, const restPlaces&);
+madeMaterial newNeoHookean(const dictionary&, const restPlaces&);
+madeMaterial newOgden(const dictionary&, const restPlaces&);
+madeMaterial newYeoh(const dictionary&, const restPlaces&);
 
 namespace
 {
 
-using maker = madeMaterial (*)(const dictionary&, const restPlaces&, int);
+using maker = madeMaterial (*)(const dictionary&, const restPlaces&);
 const std::map<word, maker>& table()
 {
     static const std::map<word, maker> all = {{"Fung", newFung},
@@ -44,9 +44,9 @@ List<word> material::kinds()
     return names;
 }
 
-std::unique_ptr<material> material::New(const dictionary& dict, const List<vector>& x0, int nDims)
+std::unique_ptr<material> material::New(const dictionary& dict, const List<vector>& x0)
 {
-    return table().at(dict.choose("type", kinds()))(dict, x0, nDims);
+    return table().at(dict.choose("type", kinds()))(dict, x0);
 }
 
 }  // namespace ispf

@@ -9,7 +9,7 @@ namespace ispf
 {
 
 zoneMaterials::zoneMaterials(const dictionary& dict, const List<vector>& x0,
-                             const List<label>& zone, const List<word>& zoneNames, int nDims)
+                             const List<label>& zone, const List<word>& zoneNames)
     : law_(x0.size(), 0), place_(x0.size())
 {
     if (dict.found("material") == dict.found("materials"))
@@ -20,7 +20,7 @@ zoneMaterials::zoneMaterials(const dictionary& dict, const List<vector>& x0,
     if (dict.found("material"))
     {
         for (label k = 0; k < label(x0.size()); ++k) place_[k] = k;
-        laws_.push_back(material::New(dict.subDict("material"), x0, nDims));
+        add(dict.subDict("material"), x0);
     }
     else
     {
@@ -38,7 +38,7 @@ zoneMaterials::zoneMaterials(const dictionary& dict, const List<vector>& x0,
             if (!materials.found(zoneNames[z]))
                 throw fatalError("'materials' has no material for the zone " + zoneNames[z],
                                  materials.where());
-            laws_.push_back(material::New(materials.subDict(zoneNames[z]), places, nDims));
+            add(materials.subDict(zoneNames[z]), places);
         }
         for (const word& key : materials.keys())
             if (std::find(solid.begin(), solid.end(), key) == solid.end())
@@ -47,7 +47,19 @@ zoneMaterials::zoneMaterials(const dictionary& dict, const List<vector>& x0,
                                    join(solid, " "));
         names_ = solid;
     }
-    for (const auto& law : laws_) modulus_.push_back(law->shearModulus());
+}
+
+void zoneMaterials::add(const dictionary& dict, const List<vector>& x0)
+{
+    laws_.push_back(material::New(dict, x0));
+    modulus_.push_back(laws_.back()->shearModulus());
+    viscosity_.push_back(
+        dict.getInRangeOrDefault<scalar>("viscosity", 0, 1e15, 0, dims::dynamicViscosity));
+}
+
+bool zoneMaterials::damps() const
+{
+    return std::any_of(viscosity_.begin(), viscosity_.end(), [](scalar v) { return v > 0; });
 }
 
 scalar zoneMaterials::stiffest() const
@@ -60,7 +72,8 @@ word zoneMaterials::description() const
     List<word> each;
     for (size_t m = 0; m < laws_.size(); ++m)
         each.push_back((names_.empty() ? "" : names_[m] + " ") + laws_[m]->description() + ", G " +
-                       str(modulus_[m], 4) + " Pa, E = 3 G " + str(3 * modulus_[m], 4) + " Pa");
+                       str(modulus_[m], 4) + " Pa, E = 3 G " + str(3 * modulus_[m], 4) + " Pa" +
+                       (viscosity_[m] > 0 ? ", viscosity " + str(viscosity_[m], 4) + " Pa s" : ""));
     return join(each, "; ");
 }
 

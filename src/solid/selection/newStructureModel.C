@@ -21,6 +21,7 @@ std::unique_ptr<structureModel> structureModel::New(const dictionary& dict,
     std::unique_ptr<structureModel> made;
     if (model == "springNetwork") made = newSpringNetwork(dict, ref);
     else made = newTotalLagrangian(dict, ref);
+    dict.subOrEmptyDict("outside").markAllRead();  // the coupling reads and checks it
     dict.checkAllRead();
     return made;
 }

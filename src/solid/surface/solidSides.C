@@ -13,8 +13,8 @@ int fluidZone(const particleCloud& cloud, label j)
 }
 
 solidSides::solidSides(const particleCloud& cloud, const neighbourList& list,
-                       const List<isometry>& images)
-    : cloud_(cloud), list_(list)
+                       const List<isometry>& images, bool outside)
+    : cloud_(cloud), list_(list), outside_(outside)
 {
     if (!cloud.hasRigid()) return;
     List<vector> x;
@@ -65,17 +65,45 @@ vector solidSides::wayAhead(label i, const vector& n) const
     return sum != 0 ? vector(0.5 * moment / sum * n) : vector(0.5 * cloud_.dx * n);
 }
 
+// 2 V sum grad W of the medium that is absent, (5.26): that of a full support is zero
+vector solidSides::absentArea(label i) const
+{
+    return sumNeighbours<among::all>(
+        list_, i, vector(vector::Zero()), [&](pairIndex k, label j) -> vector {
+            return 2 * cloud_.volume() * list_.F[k] * (cloud_.x[j].xyz() - cloud_.x[i].xyz());
+        });
+}
+
+// Half the mean way along the normal to what is absent, from the first moment of the kernel's gradient: that of a full support
+// is one
+vector solidSides::wayOut(label i, const vector& absent) const
+{
+    const vector n = absent.normalized();
+    const scalar moment =
+        sumNeighbours<among::all>(list_, i, 1.0, [&](pairIndex k, label j) -> scalar {
+            const scalar d = (cloud_.x[j].xyz() - cloud_.x[i].xyz()).dot(n);
+            return list_.F[k] * d * d;
+        });
+    const scalar way = moment * cloud_.volume() / absent.norm();
+    return std::clamp(way, 0.25 * cloud_.dx, 1.5 * cloud_.dx) * n;
+}
+
 solidSides::sides solidSides::of(label i) const
 {
     sides s;
     if (owned_ && beyondWall(i)) return s;
     // a smaller area counts as no zone
     const scalar V = cloud_.volume(), least = 2e-3 * V / cloud_.dx;
-    List<vector> areas(cloud_.zones.size(), vector::Zero());
+    List<vector> areas(cloud_.zones.size() + 1, vector::Zero());
     forNeighbours<among::others>(list_, i, [&](pairIndex k, label j) {
         if (const int z = mirroredZone(i, j); z >= 0)
             areas[z] += 2 * V * list_.F[k] * (cloud_.x[i].xyz() - cloud_.x[j].xyz());
     });
+    // in the midst of packed particles the kernel's sum has a gradient too, though nothing is absent
+    constexpr scalar disorder = 0.15;  // doc/constants.md
+    if (outside_)
+        if (const vector absent = absentArea(i); absent.norm() > disorder * V / cloud_.dx)
+            areas.back() = absent;
     for (const int k : {0, 1})
     {
         const auto most =
@@ -83,7 +111,8 @@ solidSides::sides solidSides::of(label i) const
                              [](const vector& a, const vector& b) { return a.norm() < b.norm(); });
         if (most->norm() < least) break;
         s.zone[k] = label(most - areas.begin());
-        s.area[k] = *most, s.way[k] = wayAhead(i, most->normalized());
+        s.area[k] = *most;
+        s.way[k] = most == areas.end() - 1 ? wayOut(i, *most) : wayAhead(i, most->normalized());
         most->setZero();
     }
     return s;

@@ -23,16 +23,17 @@ constexpr const char* wayField[2] = {"surfaceWayA", "surfaceWayB"};     // {e0, 
 }  // namespace
 
 void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
-                              const List<tensor>& F, const List<isometry>& images) const
+                              const List<tensor>& F, const List<isometry>& images,
+                              bool outside) const
 {
     if (cloud.vectors.count(areaField[0])) return;
     for (const int s : {0, 1})
         for (const char* name : {areaField[s], wayField[s]})
             cloud.vectors[name].assign(cloud.n(), vec4{});
-    const solidSides all(cloud, list, images);
+    const solidSides all(cloud, list, images, outside);
     List<solidSides::sides> sides;
     for (label i = 0; i < cloud.nSolid(); ++i) sides.push_back(all.of(i));
-    for (label z = 0; z < label(cloud.zones.size()); ++z)
+    for (label z = 0; z <= label(cloud.zones.size()); ++z)
     {
         List<std::pair<label, int>> looking;  // particle, its side
         List<vector> feet, areas;
@@ -214,6 +215,9 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
         part.S = cofactorOf(gradientAtFoot(s, i)) * areaAtRest(s, i);
         // F = J (cof F)^-T, and det cof F = J^2
         part.e = std::sqrt(cofactor[i].determinant()) * cofactor[i].inverse().transpose() * part.e0;
+        part.outside = part.side == int(cloud.zones.size());
+        if (part.outside) part.side = -1;
+        if (part.outside) continue;
         scalar sum = 0;
         scalar* w = weight_[s].data() + start_[i];
         const pairRange row = rowOf<among::others>(*list_, i);
@@ -253,6 +257,30 @@ void solidSurface::loads(const List<vec4>& up, List<vec4>& Q, List<tensor>& P) c
             }
         },
         256);
+}
+
+void solidSurface::outsideLoads(const pressureAt& at, List<vec4>& Q, List<tensor>& P) const
+{
+    const label nSolid = cloud_->nSolid();
+    Q.assign(nSolid, vec4{}), P.assign(nSolid, tensor::Zero());
+    forEach(0, nSolid, [&](label i) {
+        for (const int s : {0, 1})
+        {
+            const sided& part = part_[s][i];
+            if (!part.outside) continue;
+            const scalar p = at(cloud_->x[i].xyz() + part.e);
+            Q[i].s += p * vec4::from(part.S).s;
+            P[i] += p / cloud_->volume() * part.S * part.e0.transpose();
+        }
+    });
+}
+
+scalar solidSurface::outsideArea(label k) const
+{
+    scalar sum = 0;
+    for (const int s : {0, 1})
+        if (part_[s][k].outside) sum += areaAtRest(s, k).norm();
+    return sum;
 }
 
 // Calls visit(solid particle, number of its side, neighbour, weight)

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A ring of neo-Hookean solid, inflated by the fluid inside, with nothing but a pressure and tissue around it
+#include "elasticRing.H"
+#include "core/errorOf.H"
+#include "energyLedger.H"
+#include "relative.H"
+
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace ispf;
+using namespace ispf::elasticRing;
+
+namespace
+{
+
+constexpr scalar G = 1e4, area = M_PI * innerRadius * innerRadius, dt = 0.01;
+
+word solid(const word& outside)
+{
+    return "structureModel totalLagrangian; material { type neoHookean; G 1e4; } " + outside;
+}
+
+struct inflation
+{
+    scalar pressure;   // of the inner fluid [Pa]
+    scalar mostMoved;  // of the solid's particles [m]
+};
+
+// Adds the share of the inner area at a constant rate in 50 steps
+inflation inflate(const word& outside, scalar share, const word& files = "outside")
+{
+    const ringCase ring(files, solid(outside), false);
+    capturedLog log;
+    Time time(ring.files.path());
+    fsiCase c(time);
+    const auto scheme = couplingScheme::New(c);
+    for (int step = 0; step < 50; ++step)
+    {
+        if (share != 0) addArea(c, share * area / 50 / dt);
+        runSteps(c, *scheme, dt, 1);
+    }
+    scalar most = 0;
+    for (label i = 0; i < c.cloud.nSolid(); ++i)
+        most = std::max(most, (c.cloud.x[i].s - c.cloud.vectors.at("x0")[i].s)[0]);
+    return {innerPressure(c.cloud), most};
+}
+
+// Outer radius once `share` of the inner area has been added
+scalar outer(scalar share)
+{
+    return std::sqrt(outerRadius * outerRadius + share * innerRadius * innerRadius);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the same pressure outside a closed ring: it is that of the fluid inside, and nothing moves")
+{
+    const inflation r = inflate("outside { pressure 5000; }", 0);
+    CHECK(r.pressure == relative(5000, 0.01));
+    CHECK(r.mostMoved < 0.05 * dx);  // a circle of lattice places: its area vectors do not close
+}
+
+TEST_CASE(
+    "an inflated ring: a pressure, springs and dampers outside add what they should to the "
+    "pressure inside")
+{
+    const scalar share = 0.25, r = outer(share);
+    const scalar alone = inflate("", share).pressure;
+    const scalar pressed = inflate("outside { pressure 4000; }", share).pressure;
+    CHECK(pressed - alone == relative(4000, 0.02));
+    // the particles that are held have the work of p dV: each moves with dr = dV/(2 pi r)
+    const auto sumOverHeld = [&](const auto& way) {
+        const ringCase ring("held", solid("outside { pressure 0; }"), false);
+        capturedLog log;
+        Time time(ring.files.path());
+        fsiCase c(time);
+        const auto scheme = couplingScheme::New(c);
+        runSteps(c, *scheme, dt, 1);
+        scalar sum = 0;
+        for (label i = 0; i < c.cloud.nSolid(); ++i)
+        {
+            const scalar R = c.cloud.vectors.at("x0")[i].xyz().norm();
+            const vec4& S = c.cloud.vectors.at("surfaceAreaA")[i];
+            if (!(S[3] > scalar(c.cloud.zones.size()))) continue;
+            const scalar present = std::sqrt(R * R + share * innerRadius * innerRadius);
+            sum += S.xyz().norm() * way(R, present) / (2 * M_PI * present);
+        }
+        return sum;
+    };
+    const scalar held = inflate("outside { stiffness 5e4; }", share).pressure;
+    CHECK(held - alone == relative(5e4 * sumOverHeld([](scalar R, scalar now) { return now - R; }),
+                                   0.04));  // a lattice ring is no circle
+    const scalar damped = inflate("outside { damping 5e4; }", share).pressure;
+    const auto speed = [&](scalar, scalar now) {
+        return share * area / (50 * dt) / (2 * M_PI * now);
+    };
+    CHECK(damped - alone == relative(5e4 * sumOverHeld(speed), 0.04));
+    // on the surface itself these would be smaller by the order of dx over the radius
+    CHECK(held - alone == relative(5e4 * (r - outerRadius) * outerRadius / r, 0.15));
+}
+
+// Viscosity eta in a wall that is inflated at the rate A of the inner area: the integral of 4 eta v/r dr/r with v = A/(2 pi r)
+TEST_CASE("a viscous wall: the pressure that its inflation needs beside that of the elastic wall")
+{
+    constexpr scalar share = 0.2, eta = 2e3, rate = share * area / (50 * dt);
+    const auto pressure = [&](const word& viscosity) {
+        const ringCase ring(
+            "viscousWall",
+            "structureModel totalLagrangian; material { type neoHookean; G 1e4; " + viscosity + "}",
+            false);
+        capturedLog log;
+        Time time(ring.files.path());
+        fsiCase c(time);
+        const auto scheme = couplingScheme::New(c);
+        for (int step = 0; step < 50; ++step)
+        {
+            addArea(c, rate);
+            runSteps(c, *scheme, dt, 1);
+        }
+        return innerPressure(c.cloud);
+    };
+    const scalar in = std::sqrt(1 + share), out = outer(share);
+    const scalar exact = eta * rate / M_PI * (1 / (in * in) - 1 / (out * out));
+    CHECK(pressure("viscosity 2e3;") - pressure("") == relative(exact, 0.05));
+}
+
+TEST_CASE("a pressure outside that changes over time does its work: the energy ledger has it")
+{
+    const ringCase ring("outsideWork", solid("outside { pressure table ((0 0) (0.5 3000)); }"),
+                        false);
+    capturedLog log;
+    Time time(ring.files.path());
+    fsiCase c(time);
+    const auto scheme = couplingScheme::New(c);
+    for (int step = 0; step < 50; ++step)
+    {
+        addArea(c, 0.2 * area / 50 / dt);
+        runSteps(c, *scheme, dt, 1);
+    }
+    // - p dV over the outer area, which grows by as much as the inner one: p rises linearly, so does V
+    const List<scalar> sums = c.cloud.state.values().at("energyLedger");
+    CHECK(sums.at(3 + energyLedger::forces) == relative(-0.5 * 3000 * 0.2 * area, 0.04));
+}
+
+TEST_CASE("outside: no model, no field; a wrong entry and the wrong coupling are told")
+{
+    const ringCase ring("outsideNone", solid(""), false);
+    capturedLog log;
+    Time time(ring.files.path());
+    fsiCase c(time);
+    const auto scheme = couplingScheme::New(c);
+    runSteps(c, *scheme, dt, 1);
+    for (label i = 0; i < c.cloud.nSolid(); ++i)
+        CHECK(c.cloud.vectors.at("surfaceAreaA")[i][3] <= scalar(c.cloud.zones.size()));
+    CHECK_ERROR(inflate("outside { stiffness -1; }", 0, "outsideWrong"), "stiffness", 0);
+    CHECK_ERROR(inflate("outside { presure 1; }", 0, "outsideWrong"), "Valid are: pressure", 0);
+    const auto projected = [] {
+        const ringCase r("outsideProjection", solid("outside { pressure 1; }"), false);
+        setContent(r.files.path() + "/system/sphSolution", "coupling projection;");
+        capturedLog quiet;
+        Time t(r.files.path());
+        fsiCase cc(t);
+        couplingScheme::New(cc);
+    };
+    CHECK_ERROR(projected(), "coupling monolithic", 0);
+}
