@@ -15,11 +15,6 @@ namespace
 
 constexpr scalar mostParticles = 5e8;  // labels, those of images included, can number so many
 
-bool isPrismEnd(const triSurface& s, label t)
-{
-    return std::abs(s.normal(t)[2]) > 0.9;
-}
-
 }  // namespace
 
 // The part of a box that planes along the axes leave
@@ -73,6 +68,11 @@ zoneGeometry::zoneGeometry(List<zoneInfo> zones, List<patchInfo> patches, List<b
     gatherPatches();
     setVolumes();
     checkCount();
+}
+
+bool zoneGeometry::isPrismEnd(const triSurface& s, label t)
+{
+    return std::abs(s.normal(t)[2]) > 0.9;
 }
 
 word zoneGeometry::nameOf(const body& b) const

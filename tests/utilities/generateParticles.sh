@@ -252,7 +252,7 @@ sed -i 's/\(ice.*\)unit mm/\1unit cm/' system/particleDict
 refused "two units of one file" "An earlier zone reads the same file in mm" "ice.unit at line 1"
 dict 'file "constant/two.geo"; unit mm; faces (1 99);'
 refused "no such face" "has no face 99" "1 to 11"
-# In 2D the bodies of a file are cut at half their height, wherever they lie along z
+# In 2D the bodies of a file are prisms, wherever they lie along z
 for z in "0 1" "1 3" "-0.5 0.5"; do
     set -- $z
     cat > constant/hole.geo <<END
@@ -265,6 +265,24 @@ END
     echo 'dx 1e-3; nDims 2; zones { water { phase fluid; file "constant/hole.geo"; unit mm; } }' > system/particleDict
     generateParticles > out 2>&1 && grep -q '^water  *0.0001874[0-9]*  *187 ' out || fail "2D from a file, z $z: $(tail -n 8 out)"
 done
+# A zone from a file takes its room from a shape and from another file, whatever their heights
+printf 'SetFactory("OpenCASCADE"); Disk(1) = {12, 5, 0, 2}; Extrude {0, 0, 1} { Surface{1}; }\n' > constant/disk.geo
+printf 'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 7, 40, 10, 3};\n' > constant/box.geo
+echo "walls { type wall; } post { type wall; }" > constant/boundary
+for around in 'shape box; min (0 0 0); max (0.04 0.01 0);' 'file "constant/box.geo"; unit mm;'; do
+    for phase in rigid solid fluid; do
+        [ $phase = rigid ] || echo "walls { type wall; }" > constant/boundary
+        echo "dx 0.4e-3; nDims 2; placement lattice; zones { water { phase fluid; $around }
+            post { phase $phase; file \"constant/disk.geo\"; unit mm; } }" > system/particleDict
+        accepted "a $phase disk from a file" '^water  *0.0003874[5-7][0-9]*  *242[12] '
+        ! grep -q Warning out || fail "a $phase disk from a file: $(grep -A 2 Warning out)"
+    done
+    echo "walls { type wall; } post { type wall; }" > constant/boundary
+done
+echo "walls { type wall; }" > constant/boundary
+printf 'SetFactory("OpenCASCADE"); Sphere(1) = {12, 5, 0, 2};\n' > constant/disk.geo
+refused "a sphere in 2D" "disk.geo has another outline half-way up than at (" "must be prisms along z"
+echo 'dx 1e-3; nDims 2; zones { water { phase fluid; file "constant/hole.geo"; unit mm; } }' > system/particleDict
 sed -i '/Extrude/d' constant/hole.geo
 refused "flat file in 2D" "hole.geo is flat" "along z"
 # Faces of shapes are selected by boxes

@@ -3,9 +3,11 @@
 
 #include "facetCrossings.H"
 #include "featureSize.H"
+#include "shapes.H"
 #include "surfaceCapping.H"
 #include "surfaceRepair.H"
 #include "surfaceTopology.H"
+#include "zoneGeometry.H"
 #include <algorithm>
 #include <cmath>
 
@@ -212,6 +214,24 @@ private:
 void prepareBodySurface(triSurface& surface, const word& zone, const bodySurfaceSettings& settings)
 {
     bodyCheck(surface, zone, settings).run();
+}
+
+void stretchToPrism(triSurface& surface, const word& file, scalar dx)
+{
+    // a facet stands for the part of the outline below or above it, and is probed there
+    const surfaceSearch search(surface);
+    const scalar reach = zoneGeometry::probe * dx;
+    for (label t = 0; t < surface.size(); ++t)
+    {
+        const vector centre = surface.centre(t), half(centre[0], centre[1], 0);
+        if (zoneGeometry::isPrismEnd(surface, t) || search.within(half, reach)) continue;
+        throw fatalError(file + " has another outline half-way up than at " + place(centre) +
+                         " m. In two dimensions a file's bodies must be prisms along z: extrude "
+                         "the outline along z to any height");
+    }
+    const boundBox box = surface.bounds();
+    const scalar factor = 2 * prismHalfHeight * dx / (box.max[2] - box.min[2]);
+    for (vector& x : surface.nodes) x[2] *= factor;
 }
 
 }  // namespace ispf
