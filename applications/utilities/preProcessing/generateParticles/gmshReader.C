@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <gmsh.h>
 #include <map>
+#include <optional>
+#include <unistd.h>
 #include <unordered_map>
 
 namespace ispf
@@ -130,6 +133,29 @@ List<vector> trianglesOf(int face, const std::unordered_map<std::size_t, vector>
     return corners;
 }
 
+// A file in the folder for temporary files that is gone with the object
+class temporaryFile
+{
+public:
+    temporaryFile(const word& content, const word& type)
+    {
+        path_ = (std::filesystem::temp_directory_path() / ("ispfXXXXXX" + type)).string();
+        const int file = mkstemps(path_.data(), int(type.size()));
+        if (file < 0) throw fatalError("Cannot make the temporary file " + path_);
+        close(file);
+        std::ofstream out(path_, std::ios::binary);
+        out << content;
+        if (!out.flush()) throw fatalError("Cannot write the temporary file " + path_);
+    }
+    temporaryFile(const temporaryFile&) = delete;
+    ~temporaryFile() { std::remove(path_.c_str()); }
+
+    const word& path() const { return path_; }
+
+private:
+    word path_;
+};
+
 void meshInChild(const word& path, const gmshSettings& settings, const grantTime& grant,
                  packer& out)
 {
@@ -214,8 +240,10 @@ cadModel meshWithGmsh(const word& path, const gmshSettings& settings)
     limits.ifTooLong =
         " Is the unit right, the mesh size (surfaceSize) not absurdly small? 'timeLimit' sets the "
         "seconds it may take.";
+    std::optional<temporaryFile> replacement;
+    if (!settings.replacement.empty()) replacement.emplace(settings.replacement, ".igs");
     const auto job = [&](packer& out, const grantTime& grant) {
-        meshInChild(path, settings, grant, out);
+        meshInChild(replacement ? replacement->path() : path, settings, grant, out);
     };
     return unpack(runGuarded("Meshing " + path + " with gmsh", limits, job), path, settings.unit);
 }
