@@ -107,6 +107,10 @@ void particleDict::readBoundary()
 
 const cadModel& particleDict::model(const dictionary& dict)
 {
+    if (const List<word> names = dict.tokens("file"); names.size() > 1)
+        dict.fail("file", "A zone has one file, but 'file' holds '" + join(names) +
+                              "'. Give each file a zone of its own: zones of the same phase that "
+                              "touch act as one body");
     const word file = dict.get<word>("file"), unit = dict.getOrDefault<word>("unit", "");
     if (const auto known = models_.find(file); known != models_.end())
     {
