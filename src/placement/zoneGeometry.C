@@ -89,8 +89,12 @@ void zoneGeometry::checkClosed(const body& b) const
         throw fatalError("The surface of zone " + name + " is not closed: " + report.describe() +
                          ". Close the gap in the CAD program, or raise weldTolerance if the "
                          "faces only fail to meet exactly");
-    const scalar thickness = 3 * b.surface.volume() / b.surface.area();
-    if (nDims_ == 3 && thickness < 0.5 * dx_)
+    // of a plate with the same volume and surface; the ends of a prism are none of it
+    scalar area = 0;
+    for (label t = 0; t < b.surface.size(); ++t)
+        if (nDims_ == 3 || !isPrismEnd(b.surface, t)) area += b.surface.areaVector(t).norm();
+    const scalar thickness = 2 * b.surface.volume() / area;
+    if (thickness < dx_ / 3)
         throw fatalError("Zone " + name + " is about " + str(thickness) +
                          " m thick and the particle spacing dx is " + str(dx_) +
                          " m: it could not hold a particle. Is the unit of its file right?");

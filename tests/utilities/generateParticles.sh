@@ -282,6 +282,23 @@ done
 echo "walls { type wall; }" > constant/boundary
 printf 'SetFactory("OpenCASCADE"); Sphere(1) = {12, 5, 0, 2};\n' > constant/disk.geo
 refused "a sphere in 2D" "disk.geo has another outline half-way up than at (" "must be prisms along z"
+# A needle, 0.01 dx wide and 10,000 dx long, along an axis and oblique, is refused in bounded memory
+needle() {
+    awk 'BEGIN { split("0 2 3 0 3 1 4 5 7 4 7 6 0 1 5 0 5 4 2 6 7 2 7 3 0 4 6 0 6 2 1 3 7 1 7 5", c, " ")
+        print "solid needle"
+        for (t = 0; t < 12; ++t) {
+            print "facet normal 0 0 0\nouter loop"
+            for (k = 1; k <= 3; ++k) { i = c[3*t + k]; a = 0.01*(i%2); b = 10000*(int(i/2)%2)
+                print "vertex", 0.8*a + 0.6*b, 0.8*b - 0.6*a, int(i/4) }
+            print "endloop\nendfacet" }
+        print "endsolid needle" }' > constant/needle.stl
+}
+needle
+for body in 'shape box; min (0 0 0); max (1e-5 10 0);' 'file "constant/needle.stl"; unit mm;'; do
+    echo "dx 1e-3; nDims 2; placement bodyFitted; zones { water { phase fluid; $body } }" > system/particleDict
+    (ulimit -v 4000000; refused "a needle in 2D" "m thick and the particle spacing dx is 0.001 m" "could not hold a particle"; [ $failures = 0 ]) ||
+        failures=$((failures+1))
+done
 echo 'dx 1e-3; nDims 2; zones { water { phase fluid; file "constant/hole.geo"; unit mm; } }' > system/particleDict
 sed -i '/Extrude/d' constant/hole.geo
 refused "flat file in 2D" "hole.geo is flat" "along z"
