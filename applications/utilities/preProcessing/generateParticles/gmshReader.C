@@ -10,6 +10,7 @@
 #include <gmsh.h>
 #include <map>
 #include <optional>
+#include <sys/resource.h>
 #include <unistd.h>
 #include <unordered_map>
 
@@ -54,6 +55,22 @@ scalar readingTime(const word& path, const gmshSettings& settings)
                                   : 60 + 1e-4 * scalar(std::filesystem::file_size(path));
 }
 
+// Memory for reading [byte].  A file whose entities refer to themselves would take any
+size_t readingMemory(const word& path)
+{
+    constexpr size_t least = 1000000000, perByte = 2000;
+    return least + perByte * size_t(std::filesystem::file_size(path));
+}
+
+// Ends the limit on memory: what a mesh takes depends on its size, which is known after reading
+void liftMemoryLimit()
+{
+    rlimit memory;
+    if (getrlimit(RLIMIT_AS, &memory) != 0) return;
+    memory.rlim_cur = memory.rlim_max;
+    setrlimit(RLIMIT_AS, &memory);
+}
+
 scalar meshingTime(const gmshSettings& settings)
 {
     if (settings.timeLimit > 0) return settings.timeLimit;
@@ -80,6 +97,7 @@ void openFile(const word& path, const gmshSettings& settings, const grantTime& g
     gmsh::option::setNumber("Mesh.CharacteristicLengthFromCurvature", 1);
     gmsh::option::setNumber("Mesh.MinimumElementsPerTwoPi", 36);
     gmsh::open(path);
+    liftMemoryLimit();
     checkScript(path);
     gmsh::vectorpair surfaces;
     gmsh::model::getEntities(surfaces, 2);
@@ -237,6 +255,9 @@ cadModel meshWithGmsh(const word& path, const gmshSettings& settings)
 {
     processLimits limits;
     limits.seconds = readingTime(path, settings);
+    limits.memory = readingMemory(path);
+    limits.ifEnded =
+        " Is the file damaged, or does one of its entities refer to itself? Export it again.";
     limits.ifTooLong =
         " Is the unit right, the mesh size (surfaceSize) not absurdly small? 'timeLimit' sets the "
         "seconds it may take.";
