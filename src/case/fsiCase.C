@@ -6,6 +6,7 @@
 #include "sphc.H"
 #include "wallFriction.H"
 
+#include <map>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -282,6 +283,24 @@ void fsiCase::followOpen(const viscousPairs& viscous, scalar dt)
     walls->setOpenVelocity(cloud, friction, rho, dt);
 }
 
+// Pairs of particles of different zones whose motion gives each other a force, a line for each two zones: solids that touch
+// are one body
+static word linksBetweenZones(const structureModel& structure, const particleCloud& cloud)
+{
+    const blockMatrix3 pattern = structure.tangentPattern();
+    std::map<std::pair<label, label>, label> links;
+    for (label i = 0; i < structure.n(); ++i)
+        for (auto p = pattern.rowStart[i]; p < pattern.rowStart[i + 1]; ++p)
+            if (const label j = pattern.column[p]; j > i && cloud.zone[i] != cloud.zone[j])
+                ++links[std::minmax<label>(cloud.zone[i], cloud.zone[j])];
+    word text;
+    for (const auto& [zones, n] : links)
+        text += "zones " + cloud.zones[zones.first].name + " and " +
+                cloud.zones[zones.second].name + ": " + std::to_string(n) +
+                (n == 1 ? " link\n" : " links\n");
+    return text;
+}
+
 void fsiCase::report() const
 {
     label nFluid = cloud.n() - cloud.nSolid();
@@ -293,6 +312,7 @@ void fsiCase::report() const
            << "fluid: rho = " << str(rho) << " kg/m3, mu = " << str(mu) << " Pa s"
            << (viscosity ? " at high shear rates, " + viscosity->description() : word()) << "\n"
            << "structure: " << (structure ? structure->description() : "none") << "\n"
+           << (structure ? linksBetweenZones(*structure, cloud) : word())
            << "body force: " << (bodyForce.empty() ? "none" : "given") << "\n"
            << "threads: " << nThreads() << "\n";
     for (const dictionary* d : {&schemes, &solution, &physical}) d->checkAllRead();

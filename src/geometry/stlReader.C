@@ -63,7 +63,18 @@ private:
         throw fatalError("Line " + std::to_string(line_) + " of the surface file " + path_ + ": " +
                          what);
     }
-    static word shown(std::string_view token) { return word(token.substr(0, 40)); }
+    // The beginning of a word; letters that are not of ASCII as \xNN
+    static word shown(std::string_view token)
+    {
+        word text;
+        for (const unsigned char c : token.substr(0, 40))
+        {
+            char code[8];
+            std::snprintf(code, sizeof code, c > ' ' && c < 127 ? "%c" : "\\x%02x", c);
+            text += code;
+        }
+        return text;
+    }
 
     std::string_view next()
     {

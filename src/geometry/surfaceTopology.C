@@ -50,17 +50,19 @@ closednessReport checkClosed(const triSurface& s)
     return report;
 }
 
-word closednessReport::describe(scalar unit) const
+word closednessReport::describe() const
 {
     if (closed()) return "closed";
-    const vector at = openAt / unit;
+    const vector at = openAt;
     word text;
     if (openEdges > 0)
-        text = std::to_string(openEdges) + " open edges of total length " + str(openLength / unit) +
-               ", the longest at (" + str(at[0]) + " " + str(at[1]) + " " + str(at[2]) + ")";
+        text = std::to_string(openEdges) + (openEdges == 1 ? " open edge" : " open edges") +
+               " of total length " + str(openLength) + " m, the longest at (" + str(at[0]) + " " +
+               str(at[1]) + " " + str(at[2]) + ") m";
     if (flippedPairs > 0)
-        text += (text.empty() ? "" : "; ") + std::to_string(flippedPairs) +
-                " edges whose two triangles disagree on the outside";
+        text += (text.empty() ? "" : ", and ") + std::to_string(flippedPairs) +
+                (flippedPairs == 1 ? " edge" : " edges") +
+                " whose two triangles disagree on the outside";
     return text;
 }
 

@@ -119,7 +119,9 @@ List<zoneQuality> packingQuality(const zoneGeometry& geometry, const placedParti
     for (label i = 0; i < n; ++i)
     {
         zoneQuality& q = quality[placed.zone[i]];
-        q.minDistance = std::min(q.minDistance, nearest[i] / dx);
+        q.nTooClose += nearest[i] < tooClose * dx;
+        if (nearest[i] / dx < q.minDistance)
+            q.minDistance = nearest[i] / dx, q.closest = placed.x[i];
         if (placed.strip[i] >= 0) continue;
         ++q.n;
         if (ends.within(placed.x[i], support)) continue;
@@ -136,6 +138,17 @@ List<zoneQuality> packingQuality(const zoneGeometry& geometry, const placedParti
         q.volumeError = q.n * cell / geometry.volume(label(z)) - 1;
     }
     return quality;
+}
+
+// How many particles of a zone are too near to others, and where the nearest are
+static word crowding(const zoneQuality& q, const word& name)
+{
+    const auto coordinate = [&](int d) { return str(q.closest[d], 4); };
+    return std::to_string(q.nTooClose) + " particles of zone " + name +
+           " or beyond its open faces have another, or its image beyond a symmetry plane, nearer "
+           "than " +
+           str(tooClose) + " dx. The nearest pair is " + str(q.minDistance, 3) + " dx apart, at (" +
+           coordinate(0) + " " + coordinate(1) + " " + coordinate(2) + ") m. ";
 }
 
 void reportPacking(const zoneGeometry& geometry, const placedParticles& placed,
@@ -169,13 +182,12 @@ void reportPacking(const zoneGeometry& geometry, const placedParticles& placed,
         if (q.layers > 0) out << std::setw(9) << str(q.layers, 2);
         out << "\n";
         if (q.minDistance < tooClose)
-            warning("Particles of zone " + name +
-                    ", their images beyond symmetry planes included, are " + str(q.minDistance, 3) +
-                    " dx apart: " +
-                    (bodyFitted ? "no whole number of layers fits the zone there; choose a dx that "
-                                  "divides its thickness"
-                                : "a lattice fits planes along its axes at whole or half spacings "
-                                  "only; choose placement bodyFitted"));
+            warning(crowding(q, name) +
+                    (bodyFitted ? "There the thickness of the zone is no multiple of dx, or its "
+                                  "faces meet in a sharp edge. Look at that place; a finer dx "
+                                  "brings the particles nearer to their distance"
+                                : "A lattice fits planes along its axes at whole or half spacings "
+                                  "only: choose placement bodyFitted"));
         if (std::abs(q.volumeError) > 0.005)
             warning("The particles of zone " + name + " miss its volume by " +
                     percent(q.volumeError) + " %: choose " +

@@ -15,11 +15,6 @@ namespace
 
 constexpr scalar mostParticles = 5e8;  // labels, those of images included, can number so many
 
-bool isPrismEnd(const triSurface& s, label t)
-{
-    return std::abs(s.normal(t)[2]) > 0.9;
-}
-
 }  // namespace
 
 // The part of a box that planes along the axes leave
@@ -75,6 +70,11 @@ zoneGeometry::zoneGeometry(List<zoneInfo> zones, List<patchInfo> patches, List<b
     checkCount();
 }
 
+bool zoneGeometry::isPrismEnd(const triSurface& s, label t)
+{
+    return std::abs(s.normal(t)[2]) > 0.9;
+}
+
 word zoneGeometry::nameOf(const body& b) const
 {
     return b.zone >= 0 ? zones_[b.zone].name : join(b.surface.patchNames) + " (rigid)";
@@ -87,10 +87,14 @@ void zoneGeometry::checkClosed(const body& b) const
     const closednessReport report = ispf::checkClosed(b.surface);
     if (!report.closed())
         throw fatalError("The surface of zone " + name + " is not closed: " + report.describe() +
-                         " m. Close the gap in the CAD program, or raise weldTolerance if the "
+                         ". Close the gap in the CAD program, or raise weldTolerance if the "
                          "faces only fail to meet exactly");
-    const scalar thickness = 3 * b.surface.volume() / b.surface.area();
-    if (nDims_ == 3 && thickness < 0.5 * dx_)
+    // of a plate with the same volume and surface; the ends of a prism are none of it
+    scalar area = 0;
+    for (label t = 0; t < b.surface.size(); ++t)
+        if (nDims_ == 3 || !isPrismEnd(b.surface, t)) area += b.surface.areaVector(t).norm();
+    const scalar thickness = 2 * b.surface.volume() / area;
+    if (thickness < dx_ / 3)
         throw fatalError("Zone " + name + " is about " + str(thickness) +
                          " m thick and the particle spacing dx is " + str(dx_) +
                          " m: it could not hold a particle. Is the unit of its file right?");
@@ -219,6 +223,18 @@ void zoneGeometry::checkPatchNames() const
         }
 }
 
+// Names of the patches that outer faces of fluid zones have
+word zoneGeometry::patchesWithFaces() const
+{
+    std::set<word> names;
+    for (size_t z = 0; z < zones_.size(); ++z)
+        for (label t = 0; t < boundary_[z].size(); ++t)
+            if (const word& name = boundary_[z].patchNames[boundary_[z].patch[t]];
+                zones_[z].phase == phaseType::fluid && !name.empty() && name.rfind("to:", 0) != 0)
+                names.insert(name);
+    return names.empty() ? "none" : join(List<word>(names.begin(), names.end()));
+}
+
 void zoneGeometry::gatherPatches()
 {
     for (const patchInfo& patch : patches_)
@@ -235,8 +251,13 @@ void zoneGeometry::gatherPatches()
         }
         all.weld(1e-6 * dx_);
         if (all.empty() && patch.type != patchInfo::kind::other)
-            throw fatalError("Patch " + patch.name +
-                             " has no face: no outer face of a fluid zone was given that name");
+            throw fatalError(
+                "Patch " + patch.name +
+                " has no face: no outer face of a fluid zone was given that name. Patches with "
+                "faces: " +
+                patchesWithFaces() +
+                ". Choose faces for it in 'patches' of system/particleDict, or "
+                "remove it from constant/boundary");
         if (all.empty())
             warning("Patch " + patch.name + ": no face of a fluid zone lies in its planes");
         patchSurface_.push_back(std::move(all));

@@ -9,6 +9,13 @@ says() { grep -qE -- "$1" log || fail "$PWD: '$1' is not said: $(tail -n 6 log)"
 refused() { solve && fail "$PWD: not refused"; says "$1"; }
 vtpTimes() { awk -f "$cases/series.awk" particles.vtp.series | sort -g | tr '\n' ' '; }
 
+# ---- solids that touch are one body: the log says so, with the number of links by hand -------------------------------
+# three rows on either side of the face, links to 2.1 dx: 3 of dx, 4 oblique ones, 6 of 2 dx
+newCase membrane zones
+place; setEntry $control endTime 0.01
+solved; says "^zones wall and left: 13 links$"; says "^zones wall and right: 13 links$"; says "^structure: springNetwork"
+! grep -q "^zones left and right" log || fail "links between zones that do not touch"
+
 # ---- ascii and hdf5 continue each other bit by bit ----------------------------------------------------
 newCase membrane hdf5
 setEntry $control writeInterval 10; setEntry $control endTime 0.3

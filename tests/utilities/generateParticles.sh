@@ -83,7 +83,7 @@ done
 echo "walls { type wall; } $(plane a '0 0' '-1 0') $(plane b '0 0' '-1 0')" > constant/boundary
 refused "a plane twice" "planes are the same" "(-1 0 0)"
 echo "walls { type wall; } $(plane a '0.005 0' '-1 -1') $(plane b '0.005 0' '1 -1')" > constant/boundary
-generateParticles > out 2>&1 && grep -q 'Warning.*images.*apart' out || fail "a lattice on its image: $(tail -n 8 out)"
+generateParticles > out 2>&1 && grep -Eq 'Warning.* [0-9]+ particles of zone water .*image.* nearer than 0.4 dx. The nearest pair is [-0-9.e]+ dx apart, at \([^)]+\) m\. A lattice' out || fail "a lattice on its image: $(tail -n 8 out)"
 rm -rf 0
 # in 3D
 echo "$(for p in '0 0 0:-1 0 0' '0.01 0 0:1 0 0' '0 0 0:0 -1 0' '0 0.01 0:0 1 0' '0 0 0:0 0 -1' '0 0 0.01:0 0 1'; do
@@ -252,7 +252,7 @@ sed -i 's/\(ice.*\)unit mm/\1unit cm/' system/particleDict
 refused "two units of one file" "An earlier zone reads the same file in mm" "ice.unit at line 1"
 dict 'file "constant/two.geo"; unit mm; faces (1 99);'
 refused "no such face" "has no face 99" "1 to 11"
-# In 2D the bodies of a file are cut at half their height, wherever they lie along z
+# In 2D the bodies of a file are prisms, wherever they lie along z
 for z in "0 1" "1 3" "-0.5 0.5"; do
     set -- $z
     cat > constant/hole.geo <<END
@@ -265,6 +265,41 @@ END
     echo 'dx 1e-3; nDims 2; zones { water { phase fluid; file "constant/hole.geo"; unit mm; } }' > system/particleDict
     generateParticles > out 2>&1 && grep -q '^water  *0.0001874[0-9]*  *187 ' out || fail "2D from a file, z $z: $(tail -n 8 out)"
 done
+# A zone from a file takes its room from a shape and from another file, whatever their heights
+printf 'SetFactory("OpenCASCADE"); Disk(1) = {12, 5, 0, 2}; Extrude {0, 0, 1} { Surface{1}; }\n' > constant/disk.geo
+printf 'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 7, 40, 10, 3};\n' > constant/box.geo
+echo "walls { type wall; } post { type wall; }" > constant/boundary
+for around in 'shape box; min (0 0 0); max (0.04 0.01 0);' 'file "constant/box.geo"; unit mm;'; do
+    for phase in rigid solid fluid; do
+        [ $phase = rigid ] || echo "walls { type wall; }" > constant/boundary
+        echo "dx 0.4e-3; nDims 2; placement lattice; zones { water { phase fluid; $around }
+            post { phase $phase; file \"constant/disk.geo\"; unit mm; } }" > system/particleDict
+        accepted "a $phase disk from a file" '^water  *0.0003874[5-7][0-9]*  *242[12] '
+        ! grep -q Warning out || fail "a $phase disk from a file: $(grep -A 2 Warning out)"
+    done
+    echo "walls { type wall; } post { type wall; }" > constant/boundary
+done
+echo "walls { type wall; }" > constant/boundary
+printf 'SetFactory("OpenCASCADE"); Sphere(1) = {12, 5, 0, 2};\n' > constant/disk.geo
+refused "a sphere in 2D" "disk.geo has another outline half-way up than at (" "must be prisms along z"
+# A needle, 0.01 dx wide and 10,000 dx long, along an axis and oblique, is refused in bounded memory
+needle() {
+    awk 'BEGIN { split("0 2 3 0 3 1 4 5 7 4 7 6 0 1 5 0 5 4 2 6 7 2 7 3 0 4 6 0 6 2 1 3 7 1 7 5", c, " ")
+        print "solid needle"
+        for (t = 0; t < 12; ++t) {
+            print "facet normal 0 0 0\nouter loop"
+            for (k = 1; k <= 3; ++k) { i = c[3*t + k]; a = 0.01*(i%2); b = 10000*(int(i/2)%2)
+                print "vertex", 0.8*a + 0.6*b, 0.8*b - 0.6*a, int(i/4) }
+            print "endloop\nendfacet" }
+        print "endsolid needle" }' > constant/needle.stl
+}
+needle
+for body in 'shape box; min (0 0 0); max (1e-5 10 0);' 'file "constant/needle.stl"; unit mm;'; do
+    echo "dx 1e-3; nDims 2; placement bodyFitted; zones { water { phase fluid; $body } }" > system/particleDict
+    (ulimit -v 4000000; refused "a needle in 2D" "m thick and the particle spacing dx is 0.001 m" "could not hold a particle"; [ $failures = 0 ]) ||
+        failures=$((failures+1))
+done
+echo 'dx 1e-3; nDims 2; zones { water { phase fluid; file "constant/hole.geo"; unit mm; } }' > system/particleDict
 sed -i '/Extrude/d' constant/hole.geo
 refused "flat file in 2D" "hole.geo is flat" "along z"
 # Faces of shapes are selected by boxes

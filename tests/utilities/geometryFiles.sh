@@ -51,6 +51,55 @@ done <<'END2'
 1,2HIN 25.4e-3
 END2
 
+# without a flag gmsh would read inch; a model scale of 2 means that lengths are twice as long as the body's.  The last
+# column is the spacing that fills the wall with the same number of particles
+globalSection() { # the values of the model scale, the unit's flag and its name: constant/unit.igs
+    awk -v values="$1" 'NR == 3 { sub(/1[.],2,2HMM,/, values); sub(/ *G0000002/, ""); $0 = sprintf("%-72sG0000002", $0) } { print }' \
+        "$geometry/hccB.igs" > constant/unit.igs
+}
+while read -r global unit dx; do
+    globalSection "$global"
+    dict "file \"constant/unit.igs\"; $([ "$unit" = - ] || echo "unit $unit;") colour (204 0 0);" "$dx"
+    accepted "IGES $global unit $unit" "^water .* 74 "
+    [ "$unit" != - ] || [[ $global = *,2,* ]] || grep -q "unit.igs declares no unit that is known: it is read in mm" out ||
+        fail "IGES $global: nothing said of its unit"
+done <<'END2'
+1.,,, - 4e-3
+1.,,, mm 4e-3
+1.,,, cm 4e-2
+1.,,2HIN, - 4e-3
+1.,0,, - 4e-3
+1.,12,2HMM, - 4e-3
+2.,2,2HMM, - 2e-3
+.5D0,2,2HMM, - 8e-3
+2.,,, cm 2e-2
+,2,2HMM, - 4e-3
+END2
+grep -q "model scale" out && fail "a model scale is told of that there is not"
+globalSection 2.,2,2HMM,
+dict 'file "constant/unit.igs"; colour (204 0 0);' 2e-3
+accepted "IGES at twice its size" "IGES in mm, as it declares, model scale 2: lengths are divided by it"
+for scale in 0. -1. two; do
+    globalSection "$scale,2,2HMM,"
+    refused "a model scale of $scale" "has the model scale '$scale'" "no positive number" "water.file at line 1"
+done
+# texts whose length is not the one announced: readers wait for ever or read something else
+for wrong in 's/8HhccB.igs/9HhccB.igs/' 's/8HhccB.igs/7HhccB.igs/' 's/4HRED3;  /400HRED3;/' 's/4HRED3/3HRED3/'; do
+    sed "$wrong" "$geometry/hccB.igs" > constant/unit.igs
+    start=$(date +%s)
+    refused "a text of another length, $wrong" "of the IGES file" "announces a text of" "number before the H is wrong"
+    [ $(($(date +%s) - start)) -lt 10 ] || fail "$wrong: $(($(date +%s) - start)) s"
+done
+dict 'file "constant/unit.igs"; colour (204 0 0);' 4e-3
+# an entity that refers to itself, a curve made of itself twice, takes any memory and time if it may
+awk -v own=19 '{ kind = substr($0, 73, 1); number = substr($0, 74) + 0 }
+    kind == "D" && (number == own || number == own + 1) { $0 = sprintf("%8d", 102) substr($0, 9) }
+    kind == "P" && substr($0, 65, 8) + 0 == own { $0 = sprintf("%-64s", n++ ? "" : "102,2," own "," own ";") substr($0, 65) }
+    { print }' "$geometry/hccB.igs" > constant/unit.igs
+start=$(date +%s)
+(ulimit -v 6000000; refused "a curve made of itself" "does one of its entities refer to itself" "water.file at line 1"; [ $failures = 0 ]) || failures=$((failures+1))
+[ $(($(date +%s) - start)) -lt 20 ] || fail "a curve made of itself: $(($(date +%s) - start)) s"
+
 # ---- content differs from the type ----------------------------------------------------------------------------
 printf 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n' > constant/one.stl
 lies() { # what is in it, its name, then words

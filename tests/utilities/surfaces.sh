@@ -40,11 +40,12 @@ boxes 0 0 0 10 10 10 | awk '{ print $1, $2, $3, $7, $8, $9, $4, $5, $6 }' | stl 
 accepted "inside out" "repaired *all normals pointed inwards" "^water .* 1000 "
 boxes 0 0 0 10 10 0.8 | stl part > constant/part.stl
 dict "$stl" 1e-3 "weldTolerance 1e-7;"
-accepted "a thin plate" "thinnest *0.0008 m = 0.8 dx at" "encloses 0.0008 m = 0.8 dx at .*, its thinnest place"
+accepted "a thin plate" "encloses 0.0008 m = 0.8 dx at .*, its thinnest place"
+[ "$(grep -c 0.0008 out)" = 2 ] || fail "a thin plate: its thickness is told $(($(grep -c 0.0008 out) - 1)) times beside its box"
 # two bodies, half a spacing apart
 boxes 0 0 0 10 10 10 10.5 0 0 20 10 10 | stl part > constant/part.stl
 dict "$stl"
-accepted "a gap" "gap *0.0005 m = 0.5 dx at \(0.01025 " "leaves a gap of 0.0005 m = 0.5 dx at \(0.01025 " "2 part\(s\)"
+accepted "a gap" "leaves a gap of 0.0005 m = 0.5 dx at \(0.01025 " "2 part\(s\)"
 # a hole smaller than a particle
 { boxes 0 0 0 10 10 10 | awk 'NR != 3'
   printf '%s 10\n' '0 0 10 10 0 10 9.5 8' '0 0 10 9.5 8 10 9 8' '10 0 10 10 10 10 9.5 8.5' '10 0 10 9.5 8.5 10 9.5 8' \
@@ -60,7 +61,17 @@ refused "crossing parts" "passes through itself: two facets cross at (0.01 0.00"
 boxes 0 0 0 10 10 10 5 0 0 20 10 10 | stl part > constant/part.stl
 refused "parts with common planes" "has parts within one another" "lies in another part"
 boxes 0 0 0 10 10 10 | awk 'NR > 2' | stl part > constant/part.stl
-refused "an open face" "4 open edges" "hole at (0.005 0.005 0) m, 0.01 m = 10 dx across, 4 edges" "'capping'"
+refused "an open face" "not closed: 4 open edges of total length 0.04 m, the longest at (" ") m." "hole at (0.005 0.005 0) m, 0.01 m = 10 dx across, 4 edges" "'capping'"
+boxes 0 0 0 10 10 10 | stl part > constant/part.stl
+printf 'solid a\nfacet normal 0 0 1\nouter loop\nver\001\377tex\n' > constant/part.stl
+refused "a byte that is no letter" "Line 4 of the surface file" "'ver\x01\xfftex' stands where vertex should"
+boxes 0 0 0 10 10 10 | stl part > constant/part.stl
+dict 'file ("constant/part.stl" "constant/other.stl"); unit mm;'
+refused "two files for a zone" "A zone has one file" "part.stl" "Give each file a zone of its own" "water.file at line 1"
+echo "walls { type wall; } outside { type wall; }" > constant/boundary
+dict "$stl"
+refused "a patch without faces" "Patch outside has no face" "Patches with faces: walls."
+echo "walls { type wall; }" > constant/boundary
 boxes 0 0 0 10 10 10 | stl part > constant/part.stl
 dict 'file "constant/part.stl"; unit m;' 1e-3
 refused "metres for millimetres" "room for 1e+12 particles" "unit" "it would hold about 1e+03"
@@ -136,6 +147,7 @@ echo "walls { type wall; } in { type open; p 20; } out { type open; p 0; }" > co
 dict "$stl capping { in { near (0 0 0); } out { near (0 0 0.02); } }"
 sed -i 's/lattice/bodyFitted/' system/particleDict
 accepted "a capped tube" "capped *in at \(.* 0\) m, 0.01 m = 10 dx across, [0-9]+ edges, normal \(0 0 -1\)" "capped *out at .*normal \(0 0 1\)"
+! grep -q "rim moved" out || fail "a capped tube: rounding is told as a move: $(grep "rim moved" out)"
 volumeIs -1 0.01 1.256637e-6 "a capped tube"    # pi 5^2 16; facets lie inside
 for cap in in out; do
     [ "$(grep -c "facet normal -*0 -*0 -*1$" constant/triSurface/$cap.stl)" = "$(grep -c "facet normal" constant/triSurface/$cap.stl)" ] || fail "$cap is not plane"

@@ -3,9 +3,11 @@
 
 #include "facetCrossings.H"
 #include "featureSize.H"
+#include "shapes.H"
 #include "surfaceCapping.H"
 #include "surfaceRepair.H"
 #include "surfaceTopology.H"
+#include "zoneGeometry.H"
 #include <algorithm>
 #include <cmath>
 
@@ -88,8 +90,10 @@ private:
         else zone.choose("capping", {"automatic"});
         for (const auto& [name, loop] : capEnds(s_, requests, tolerance, dx_))
             line("capped", name + " " + loop.describe(dx_) + ", normal " +
-                               place(loop.normal(), 1e-9) + ", rim moved by up to " +
-                               inSpacings(loop.offPlane, dx_));
+                               place(loop.normal(), 1e-9) +
+                               (loop.offPlane > 1e-9 * dx_
+                                    ? ", rim moved by up to " + inSpacings(loop.offPlane, dx_)
+                                    : word()));
         orientOutward(s_);
     }
 
@@ -98,7 +102,7 @@ private:
         const closednessReport report = ispf::checkClosed(s_);
         if (report.closed()) return;
         const List<boundaryLoop> holes = boundaryLoops(s_);
-        word text = name_ + " is not closed: " + report.describe() + " m.";
+        word text = name_ + " is not closed: " + report.describe() + ".";
         for (size_t k = 0; k < holes.size() && k < 10; ++k)
             text += "\n    hole " + holes[k].describe(dx_);
         if (holes.size() > 10) text += "\n    and " + std::to_string(holes.size() - 10) + " more";
@@ -177,13 +181,15 @@ private:
     void reportFeatures() const
     {
         const featureSizes sizes = smallestFeatures(s_, dx_, flat_);
-        const auto say = [&](const char* what, const featureSize& f) {
-            if (f.found()) line(what, inSpacings(f.size, dx_) + " at " + place(f.at, 1e-9 * dx_));
+        // a size that a warning tells is not told twice
+        const auto say = [&](const char* what, const featureSize& f, scalar warnedBelow) {
+            if (f.found() && f.size >= warnedBelow * dx_)
+                line(what, inSpacings(f.size, dx_) + " at " + place(f.at, 1e-9 * dx_));
         };
-        say("thinnest", sizes.thickness);
-        say("gap", sizes.gap);
+        say("thinnest", sizes.thickness, 2);
+        say("gap", sizes.gap, 1);
         const featureSize radius = smallestRadius(s_, dx_, flat_);
-        if (radius.found())
+        if (radius.found() && radius.size >= 2 * dx_)
             line("rounding",
                  "radius " + inSpacings(radius.size, dx_) + " at " + place(radius.at, 1e-9 * dx_));
         if (radius.size < 2 * dx_)
@@ -212,6 +218,24 @@ private:
 void prepareBodySurface(triSurface& surface, const word& zone, const bodySurfaceSettings& settings)
 {
     bodyCheck(surface, zone, settings).run();
+}
+
+void stretchToPrism(triSurface& surface, const word& file, scalar dx)
+{
+    // a facet stands for the part of the outline below or above it, and is probed there
+    const surfaceSearch search(surface);
+    const scalar reach = zoneGeometry::probe * dx;
+    for (label t = 0; t < surface.size(); ++t)
+    {
+        const vector centre = surface.centre(t), half(centre[0], centre[1], 0);
+        if (zoneGeometry::isPrismEnd(surface, t) || search.within(half, reach)) continue;
+        throw fatalError(file + " has another outline half-way up than at " + place(centre) +
+                         " m. In two dimensions a file's bodies must be prisms along z: extrude "
+                         "the outline along z to any height");
+    }
+    const boundBox box = surface.bounds();
+    const scalar factor = 2 * prismHalfHeight * dx / (box.max[2] - box.min[2]);
+    for (vector& x : surface.nodes) x[2] *= factor;
 }
 
 }  // namespace ispf

@@ -2,6 +2,7 @@
 #include "cadFormat.H"
 
 #include "fileNames.H"
+#include "igesFile.H"
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -146,36 +147,13 @@ word commonName(const word& unit)
     return known == names.end() ? unit : known->second;
 }
 
-// Unit from parameters 14 and 15 of the global section (IGES 5.3, 2.2.4.3): a flag, or 3 and a name
-word unitOfIGES(const word& text)
+// The unit that the global section of an IGES file declares
+word unitOfIGES(const igesFile& file)
 {
     static const std::array<const char*, 12> flags = {"",  "inch", "mm",  "",   "ft", "mile",
                                                       "m", "km",   "mil", "um", "cm", "microinch"};
-    std::istringstream lines(text);
-    word line, global;
-    while (std::getline(lines, line))
-        if (line.size() > 72 && line[72] == 'G') global += line.substr(0, 72);
-    char comma = ',';
-    List<word> values(1);
-    for (size_t i = 0; i < global.size() && values.size() < 16; ++i)
-    {
-        const size_t digits = global.find_first_not_of("0123456789", i);
-        if (digits != word::npos && digits > i && global[digits] == 'H' &&
-            global.find_first_not_of(' ') != word::npos && values.back().empty())
-        {
-            const size_t n = std::min<size_t>(
-                std::stoul("0" + global.substr(i, std::min<size_t>(digits - i, 6))),
-                global.size() - digits - 1);
-            values.back() = global.substr(digits + 1, n);
-            if (values.size() == 1 && n == 1) comma = values[0][0];
-            i = digits + n;
-        }
-        else if (global[i] == comma) values.emplace_back();
-        else if (global[i] != ' ') values.back() += global[i];
-    }
-    if (values.size() < 16) return "";
-    const word& flag = values[13];
-    if (flag == "3") return commonName(lower(values[14]));
+    const word flag = file.unitFlag();
+    if (flag == "3") return commonName(lower(file.unitName()));
     const auto digit = [](unsigned char c) { return std::isdigit(c); };
     const bool number =
         !flag.empty() && flag.size() < 3 && std::all_of(flag.begin(), flag.end(), digit);
@@ -245,13 +223,20 @@ cadFormat recognisedFormat(const word& path)
     for (const auto& [type, name] : formatOfType) types.push_back(type);
     if (known == formatOfType.end())
         throw fatalError("The type of " + path + " is not known. " + validWords("type", types));
-    cadFormat format{known->second, ""};
+    cadFormat format;
+    format.name = known->second;
     const word text = readText(path);
     if (firstLetter(text) == text.size())
         throw fatalError("The geometry file " + path + " is empty");
     checkContent(path, format.name, text);
     checkWhole(path, format.name, text);
-    if (format.name == "IGES") format.declaredUnit = unitOfIGES(text);
+    if (format.name == "IGES")
+    {
+        const igesFile iges(path, text);
+        format.declaredUnit = unitOfIGES(iges);
+        format.modelScale = iges.modelScale();
+        format.inMillimetres = iges.inMillimetres();
+    }
     if (format.name == "STEP") format.declaredUnit = unitOfSTEP(text);
     return format;
 }

@@ -97,16 +97,22 @@ cadModel readCad(const word& path, const cadSettings& settings)
 {
     const cadFormat format = recognisedFormat(path);
     const word unitName = unitOf(path, format, settings.unit);
-    // gmsh converts files that declare their unit to mm
-    const scalar unit = unitInMetres(format.declaredUnit.empty() ? unitName : "mm");
+    // gmsh converts a STEP file that declares its unit to mm.  It takes an IGES file for one in mm: it would take one
+    // without a unit for one in inch, and knows no model scale
+    const bool iges = format.name == "IGES", converted = !format.declaredUnit.empty() &&
+                                                         (!iges || !unitsInMetres.count(unitName));
+    const scalar unit = unitInMetres(converted ? "mm" : unitName) / format.modelScale;
     cadModel model = format.name == "STL"
                          ? fromSTL(path, unit)
-                         : meshWithGmsh(path, {settings.meshSize / unit, unit, settings.timeLimit});
+                         : meshWithGmsh(path, {settings.meshSize / unit, unit, settings.timeLimit,
+                                               format.inMillimetres});
     model.unit = unitName;
     model.givenFacets = format.name == "STL" || format.name == "gmsh-mesh";
     model.origin = format.name + (format.declaredUnit.empty()
                                       ? " in " + unitName
                                       : " in " + format.declaredUnit + ", as it declares");
+    if (format.modelScale != 1)
+        model.origin += ", model scale " + str(format.modelScale) + ": lengths are divided by it";
     return model;
 }
 

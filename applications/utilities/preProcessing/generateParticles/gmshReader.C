@@ -6,8 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <gmsh.h>
 #include <map>
+#include <optional>
+#include <sys/resource.h>
+#include <unistd.h>
 #include <unordered_map>
 
 namespace ispf
@@ -51,6 +55,22 @@ scalar readingTime(const word& path, const gmshSettings& settings)
                                   : 60 + 1e-4 * scalar(std::filesystem::file_size(path));
 }
 
+// Memory for reading [byte].  A file whose entities refer to themselves would take any
+size_t readingMemory(const word& path)
+{
+    constexpr size_t least = 1000000000, perByte = 2000;
+    return least + perByte * size_t(std::filesystem::file_size(path));
+}
+
+// Ends the limit on memory: what a mesh takes depends on its size, which is known after reading
+void liftMemoryLimit()
+{
+    rlimit memory;
+    if (getrlimit(RLIMIT_AS, &memory) != 0) return;
+    memory.rlim_cur = memory.rlim_max;
+    setrlimit(RLIMIT_AS, &memory);
+}
+
 scalar meshingTime(const gmshSettings& settings)
 {
     if (settings.timeLimit > 0) return settings.timeLimit;
@@ -77,6 +97,7 @@ void openFile(const word& path, const gmshSettings& settings, const grantTime& g
     gmsh::option::setNumber("Mesh.CharacteristicLengthFromCurvature", 1);
     gmsh::option::setNumber("Mesh.MinimumElementsPerTwoPi", 36);
     gmsh::open(path);
+    liftMemoryLimit();
     checkScript(path);
     gmsh::vectorpair surfaces;
     gmsh::model::getEntities(surfaces, 2);
@@ -129,6 +150,29 @@ List<vector> trianglesOf(int face, const std::unordered_map<std::size_t, vector>
     }
     return corners;
 }
+
+// A file in the folder for temporary files that is gone with the object
+class temporaryFile
+{
+public:
+    temporaryFile(const word& content, const word& type)
+    {
+        path_ = (std::filesystem::temp_directory_path() / ("ispfXXXXXX" + type)).string();
+        const int file = mkstemps(path_.data(), int(type.size()));
+        if (file < 0) throw fatalError("Cannot make the temporary file " + path_);
+        close(file);
+        std::ofstream out(path_, std::ios::binary);
+        out << content;
+        if (!out.flush()) throw fatalError("Cannot write the temporary file " + path_);
+    }
+    temporaryFile(const temporaryFile&) = delete;
+    ~temporaryFile() { std::remove(path_.c_str()); }
+
+    const word& path() const { return path_; }
+
+private:
+    word path_;
+};
 
 void meshInChild(const word& path, const gmshSettings& settings, const grantTime& grant,
                  packer& out)
@@ -211,11 +255,16 @@ cadModel meshWithGmsh(const word& path, const gmshSettings& settings)
 {
     processLimits limits;
     limits.seconds = readingTime(path, settings);
+    limits.memory = readingMemory(path);
+    limits.ifEnded =
+        " Is the file damaged, or does one of its entities refer to itself? Export it again.";
     limits.ifTooLong =
         " Is the unit right, the mesh size (surfaceSize) not absurdly small? 'timeLimit' sets the "
         "seconds it may take.";
+    std::optional<temporaryFile> replacement;
+    if (!settings.replacement.empty()) replacement.emplace(settings.replacement, ".igs");
     const auto job = [&](packer& out, const grantTime& grant) {
-        meshInChild(path, settings, grant, out);
+        meshInChild(replacement ? replacement->path() : path, settings, grant, out);
     };
     return unpack(runGuarded("Meshing " + path + " with gmsh", limits, job), path, settings.unit);
 }

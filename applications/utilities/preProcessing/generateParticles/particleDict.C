@@ -107,6 +107,10 @@ void particleDict::readBoundary()
 
 const cadModel& particleDict::model(const dictionary& dict)
 {
+    if (const List<word> names = dict.tokens("file"); names.size() > 1)
+        dict.fail("file", "A zone has one file, but 'file' holds '" + join(names) +
+                              "'. Give each file a zone of its own: zones of the same phase that "
+                              "touch act as one body");
     const word file = dict.get<word>("file"), unit = dict.getOrDefault<word>("unit", "");
     if (const auto known = models_.find(file); known != models_.end())
     {
@@ -255,13 +259,13 @@ List<body> particleDict::cadBodies(const word& zone, const dictionary& dict)
     return bodies;
 }
 
-// Cuts the surface for two dimensions, at half its height
+// Moves the middle of the body's height to z = 0 for two dimensions
 void particleDict::cutHalfWay(const word& file, triSurface& s) const
 {
     const boundBox box = s.bounds();
     if (box.max[2] - box.min[2] < 1e-6 * dx)
         throw fatalError(file +
-                         " is flat. In two dimensions a file's bodies are cut half-way up: "
+                         " is flat. In two dimensions a file's bodies are prisms along z: "
                          "give them a height along z, any will do");
     for (vector& x : s.nodes) x[2] -= 0.5 * (box.min[2] + box.max[2]);
 }
@@ -275,9 +279,12 @@ body particleDict::cadBody(const word& zone, const dictionary& dict, const cadMo
     if (cad.givenFacets) sortByPlace(b.surface);
     bodySurfaceSettings settings = {
         dx, nDims, weldTolerance_, closeHoles_, &dict, dict.get<word>("file"), cad.origin};
+    scalar meshed = 0;
     try
     {
         prepareBodySurface(b.surface, zone, settings);
+        meshed = b.surface.volume();
+        if (nDims == 2) stretchToPrism(b.surface, cad.path, dx);
     }
     catch (const fatalError& error)
     {
@@ -285,7 +292,6 @@ body particleDict::cadBody(const word& zone, const dictionary& dict, const cadMo
         dict.fail("file", error.what());
     }
     if (cad.givenFacets) sortByPlace(b.surface);
-    const scalar meshed = b.surface.volume();
     if (volume > 0 && std::abs(meshed / volume - 1) > 0.01)
     {
         warning("The CAD kernel gives zone " + zone + " a volume of " + str(volume) +

@@ -11,8 +11,6 @@ namespace ispf
 namespace
 {
 
-constexpr scalar prismHalfHeight = 1e4;  // of two-dimensional shapes, in dx
-
 word shapeOf(const dictionary& dict)
 {
     return dict.choose("shape", {"box", "sphere", "ellipsoid", "cylinder", "annulus"});
