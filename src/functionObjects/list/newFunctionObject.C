@@ -21,6 +21,7 @@ made newProbes(const word&, const dictionary&, const fsiCase&);
 made newSurfaceLeaks(const word&, const dictionary&, const fsiCase&);
 made newSurfaceSample(const word&, const dictionary&, const fsiCase&);
 made newVolFieldValue(const word&, const dictionary&, const fsiCase&);
+made newWallShearStress(const word&, const dictionary&, const fsiCase&);
 made newZoneDiameter(const word&, const dictionary&, const fsiCase&);
 
 std::unique_ptr<functionObject> functionObject::New(const word& name, const dictionary& dict,
@@ -41,6 +42,7 @@ std::unique_ptr<functionObject> functionObject::New(const word& name, const dict
                                                 {"surfaceLeaks", newSurfaceLeaks},
                                                 {"surfaceSample", newSurfaceSample},
                                                 {"volFieldValue", newVolFieldValue},
+                                                {"wallShearStress", newWallShearStress},
                                                 {"zoneDiameter", newZoneDiameter}};
     List<word> names;
     for (const auto& t : types) names.push_back(t.first);
