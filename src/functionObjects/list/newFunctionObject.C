@@ -18,6 +18,8 @@ made newMomentum(const word&, const dictionary&, const fsiCase&);
 made newPatchFlux(const word&, const dictionary&, const fsiCase&);
 made newPlaneMap(const word&, const dictionary&, const fsiCase&);
 made newProbes(const word&, const dictionary&, const fsiCase&);
+made newResidenceTime(const word&, const dictionary&, const fsiCase&);
+made newSolidStress(const word&, const dictionary&, const fsiCase&);
 made newSurfaceLeaks(const word&, const dictionary&, const fsiCase&);
 made newSurfaceSample(const word&, const dictionary&, const fsiCase&);
 made newVolFieldValue(const word&, const dictionary&, const fsiCase&);
@@ -39,6 +41,8 @@ std::unique_ptr<functionObject> functionObject::New(const word& name, const dict
                                                 {"patchFlux", newPatchFlux},
                                                 {"planeMap", newPlaneMap},
                                                 {"probes", newProbes},
+                                                {"residenceTime", newResidenceTime},
+                                                {"solidStress", newSolidStress},
                                                 {"surfaceLeaks", newSurfaceLeaks},
                                                 {"surfaceSample", newSurfaceSample},
                                                 {"volFieldValue", newVolFieldValue},
