@@ -2,6 +2,7 @@
 #include "fsiCase.H"
 
 #include "cloudIO.H"
+#include "patchDictionary.H"
 #include "sphc.H"
 #include "wallFriction.H"
 
@@ -44,7 +45,7 @@ fsiCase::fsiCase(Time& t) : time(t)
 
 void fsiCase::readBoundary()
 {
-    const dictionary patches = dictionary::fromFile(time.constantFile("boundary"));
+    const dictionary patches = readPatchDictionary(caseFolder(), cloud.zones);
     walls =
         std::make_unique<boundary>(caseFolder(), patches, cloud, kernel->support(), time.value());
     const auto rest = cloud.vectors.find("x0");
