@@ -3,6 +3,7 @@
 #include "pairViscosity.H"
 
 #include "cloudIO.H"
+#include "patchDictionary.H"
 #include "sphc.H"
 #include "wallFriction.H"
 
@@ -46,7 +47,7 @@ fsiCase::fsiCase(Time& t) : time(t)
 
 void fsiCase::readBoundary()
 {
-    const dictionary patches = dictionary::fromFile(time.constantFile("boundary"));
+    const dictionary patches = readPatchDictionary(caseFolder(), cloud.zones);
     walls = std::make_unique<boundary>(caseFolder(), patches, cloud, kernel->support(),
                                        time.value(), nu());
     const auto rest = cloud.vectors.find("x0");

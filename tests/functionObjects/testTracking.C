@@ -128,6 +128,62 @@ TEST_CASE("inflation at constant wall volume: rho = sqrt(r^2 + c)")
     CHECK(d[4] / d[3] < 1.005);
 }
 
+TEST_CASE("a tube with two open ends: each is closed by a cap in its plane")
+{
+    // whole; half of its length, or of its section, cut by a symmetry plane
+    for (const word plane : {"", "symZ { type symmetryPlane; point (0 0 0); normal (0 0 -1); }",
+                             "symY { type symmetryPlane; point (0 0 0); normal (0 -1 0); }"})
+    {
+        const bool half = plane.rfind("symY", 0) == 0;
+        const scalar sweep = half ? M_PI : 2 * M_PI;
+        testCase s;
+        for (int layer = 0; layer < 3; ++layer)
+            for (scalar z = 0.5 * s.dx; z < length; z += s.dx)
+                for (label k = 0; k < 64; ++k)
+                {
+                    const scalar r = R + (layer + 0.5) * s.dx, a = sweep * (k + 0.5) / 64;
+                    s.add("wall", "solid", {r * std::cos(a), r * std::sin(a), z});
+                }
+        s.boundary = plane;
+        const triSurface inner = tube(R, length, 64, 20, sweep);
+        std::filesystem::create_directories(s.path + "/constant/triSurface");
+        writeSTL(inner, s.path + "/constant/triSurface/inner.stl");
+        s.functions = "volume { type cavityVolume; surface inner; }";
+        auto r = s.start();
+        functionObjectList f(*r.c);
+        f.start();
+        const label n = half ? 128 : 64;  // sides of the whole section
+        const scalar polygon = 0.5 * n * R * R * std::sin(2 * M_PI / n);
+        const scalar whole = (plane.rfind("symZ", 0) == 0 ? 2 : 1) * polygon * length;
+        CHECK(s.rows("volume/0/cavityVolume.dat").at(0)[1] == relative(whole, 1e-6));
+        // it widens: the rims move along with their ends
+        deform(r.c->cloud, [](const vector& x) { return vector(1.2 * x[0], 1.2 * x[1], x[2]); });
+        f.start();
+        CHECK(s.rows("volume/0/cavityVolume.dat").back()[1] == relative(1.44 * whole, 1e-6));
+    }
+}
+
+TEST_CASE("in two dimensions two walls of a channel have four ends, of which no one knows the caps")
+{
+    testCase s;
+    s.nDims = 2;
+    triSurface walls;
+    walls.addPatch("wall");
+    for (const scalar side : {-1.0, 1.0})
+    {
+        for (int j = 0; j < 3; ++j)
+            for (int i = 0; i < 10; ++i)
+                s.add("wall", "solid", s.dx * vector(i + 0.5, side * (5.5 + j), 0));
+        const vector a(0, 5e-3 * side, 0), b(10e-3, 5e-3 * side, 0), up(0, 0, 1e-3);
+        walls.add(a, b, b + up, 0), walls.add(a, b + up, a + up, 0);
+    }
+    std::filesystem::create_directories(s.path + "/constant/triSurface");
+    writeSTL(walls, s.path + "/constant/triSurface/inner.stl");
+    s.functions = "volume { type cavityVolume; surface inner; }";
+    auto r = s.start();
+    CHECK_ERROR(functionObjectList(*r.c), "its lines have 4 free ends", 3);
+}
+
 TEST_CASE("surfaces and planes that do not fit are refused")
 {
     shell s;

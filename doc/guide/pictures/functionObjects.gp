@@ -34,6 +34,12 @@ plot flap("balance/0/energy.dat") using 1:2 with lines linestyle 1 title "kineti
      "" using 1:7 with lines linestyle 3 title "dissipated", "" using 1:10 with lines linestyle 4 title "openWork"
 set output "momentum.png"; set ylabel "momentum [kg/s]"; set key bottom right
 plot flap("motion/0/momentum.dat") using 1:2 with lines linestyle 1 title "x", "" using 1:3 with lines linestyle 2 title "y"
+set output "wallShearStress.png"; set ylabel "wall shear stress [Pa]"; set key top left
+plot flap("skinShear/0/flap.dat") using 1:2 with lines linestyle 1 title "mean", "" using 1:4 with lines linestyle 2 title "mean of TAWSS"
+set output "solidStress.png"; set ylabel "von Mises stress [Pa]"
+plot flap("flapStress/0/solidStress.dat") using 1:3 with lines linestyle 1 title "largest", "" using 1:2 with lines linestyle 2 title "mean"
+set output "residenceTime.png"; set ylabel "residence time [s]"
+plot flap("age/0/residenceTime.dat") using 1:3 with lines linestyle 1 title "largest", "" using 1:2 with lines linestyle 2 title "mean"
 set output "errorNorm.png"; set ylabel "over the exact field [%]"; set key top right
 plot runs."/vortices/postProcessing/error/0/errorNorm.dat" using 1:(100*$2/$4) with lines linestyle 1 title "L2(U)", \
      "" using 1:(100*$5/$7) with lines linestyle 2 title "L2(p)"

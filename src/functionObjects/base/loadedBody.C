@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "loadedBody.H"
 
+#include "surfaceRefinement.H"
+
+#include <algorithm>
 #include <filesystem>
 
 namespace ispf
@@ -14,6 +17,24 @@ List<char> allFluid(const particleCloud& cloud)
     List<char> zones;
     for (const zoneInfo& z : cloud.zones) zones.push_back(z.phase == phaseType::fluid);
     return zones;
+}
+
+// Unit vectors of a triangle: along its first edge, across it, and its normal
+tensor frameOf(const triSurface& s, label t)
+{
+    tensor e;
+    e.col(0) = (s.corner(t, 1) - s.corner(t, 0)).normalized();
+    e.col(2) = s.areaVector(t).normalized();
+    e.col(1) = e.col(2).cross(e.col(0));
+    return e;
+}
+
+label largestOf(const triSurface& s)
+{
+    label largest = 0;
+    for (label t = 1; t < s.size(); ++t)
+        if (s.areaVector(t).norm() > s.areaVector(largest).norm()) largest = t;
+    return largest;
 }
 
 }  // namespace
@@ -64,7 +85,7 @@ loadedBody loadedBody::solid(const word& zone, const fsiCase& c, const fileLocat
     return b;
 }
 
-void loadedBody::eachSide(const std::function<void(triSurface, const List<char>&)>& visit) const
+void loadedBody::eachSide(const visitor& visit) const
 {
     for (const part& p : parts_)
     {
@@ -76,17 +97,17 @@ void loadedBody::eachSide(const std::function<void(triSurface, const List<char>&
             s.flip();  // the normals of tracked surfaces point into the fluid
         }
         if (isWall_) s = case_->walls->surfaceOf(name_, case_->cloud);
-        visit(s, p.zones);
+        visit(s, p);
         if (!isWall_ || !case_->walls->isTwoSided(name_)) continue;
         s.flip();
-        visit(std::move(s), p.zones);
+        visit(std::move(s), p);
     }
 }
 
 List<loadedBody::side> loadedBody::sides() const
 {
     List<side> all;
-    eachSide([&](triSurface s, const List<char>& zones) {
+    eachSide([&](triSurface s, const part& p) {
         known_.resize(std::max(known_.size(), all.size() + 1));
         auto& [nodes, facets] = known_[all.size()];
         if (nodes != s.nodes)
@@ -94,7 +115,7 @@ List<loadedBody::side> loadedBody::sides() const
             nodes = s.nodes;
             facets = facetsOf(std::move(s), case_->cloud.dx, case_->cloud.nDims);
         }
-        all.push_back({facets, surfaceFit(*case_, zones, facets).of(facets)});
+        all.push_back({facets, surfaceFit(*case_, p.zones, facets).of(facets)});
     });
     return all;
 }
@@ -102,12 +123,61 @@ List<loadedBody::side> loadedBody::sides() const
 List<loadedBody::triangulation> loadedBody::triangulated() const
 {
     List<triangulation> all;
-    eachSide([&](triSurface s, const List<char>& zones) {
+    eachSide([&](triSurface s, const part& p) {
         prepare(s, case_->cloud.dx);
         const List<facet> facets = trianglesOf(s, case_->cloud.nDims);
-        all.push_back({{facets, surfaceFit(*case_, zones, facets).of(facets)}, std::move(s)});
+        all.push_back({{facets, surfaceFit(*case_, p.zones, facets).of(facets)}, std::move(s)});
     });
     return all;
+}
+
+List<loadedBody::triangulation> loadedBody::lasting() const
+{
+    List<triangulation> all;
+    eachSide([&](triSurface s, const part& p) {
+        if (!p.tracked) s = carried(all.size(), s);
+        const List<facet> facets = trianglesOf(s, case_->cloud.nDims);
+        const surfaceFit fit(*case_, p.zones, facets);
+        all.push_back({{facets, fit.of(facets, stickingTo(s))}, std::move(s)});
+    });
+    return all;
+}
+
+// The triangles of the first call at the place of the wall `now`
+triSurface loadedBody::carried(size_t side, const triSurface& now) const
+{
+    if (first_.size() <= side)
+    {
+        triSurface fine = now;
+        const scalar dx = case_->cloud.dx;
+        fine.weld(1e-4 * dx);
+        // walls often measure whole spacings: rounding must not decide whether their edges are cut
+        refine(fine, 1.500001 * dx);
+        first_.emplace_back(now, std::move(fine));
+    }
+    const auto& [then, fine] = first_[side];
+    if (then.size() != now.size())
+        throw fatalError("Time " + case_->time.timeName() + " s: wall " + name_ + " has " +
+                         std::to_string(now.size()) + " triangles within the symmetry planes, at " +
+                         "the start it had " + std::to_string(then.size()) +
+                         ": nothing can be summed on its triangles. Leave out this wall.");
+    triSurface s = fine;
+    const label t = largestOf(then);
+    const tensor R = frameOf(now, t) * frameOf(then, t).transpose();
+    for (vector& x : s.nodes) x = now.corner(t, 0) + R * (x - then.corner(t, 0));
+    return s;
+}
+
+// Per triangle of a wall that the fluid sticks to; else empty.  Beside a solid the fluid comes to rest half a dx within it, so
+// that its velocity at the surface is not that of the solid
+List<vector> loadedBody::stickingTo(const triSurface& s) const
+{
+    List<vector> U;
+    const List<word> sticky = case_->walls->noSlipWalls();
+    if (isWall_ && std::find(sticky.begin(), sticky.end(), name_) != sticky.end())
+        for (label t = 0; t < s.size(); ++t)
+            U.push_back(case_->walls->wallVelocity(name_, s.centre(t)));
+    return U;
 }
 
 tensor viscousStress(const fluidAt& f, const fsiCase& c)
@@ -115,6 +185,12 @@ tensor viscousStress(const fluidAt& f, const fsiCase& c)
     const tensor twiceD = f.gradU + f.gradU.transpose();
     const scalar rate = std::sqrt(0.5) * twiceD.norm();
     return c.mu * (c.viscosity ? c.viscosity->ratio(rate) : 1) * twiceD;
+}
+
+vector shearOn(const vector& n, const fluidAt& f, const fsiCase& c)
+{
+    const vector traction = -viscousStress(f, c) * n;
+    return traction - traction.dot(n) * n;
 }
 
 }  // namespace ispf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Volume enclosed by a surface that moves with the solid, closed over its opening; of the whole
+// Volume enclosed by a surface that moves with the solid, closed over its openings by caps; of the whole
 // body [m3; m2 in two dimensions].  surface: constant/triSurface/<surface>.stl, see
 // trackedSurface.H.
 //

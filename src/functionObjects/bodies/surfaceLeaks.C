@@ -15,6 +15,7 @@
 #include "dataFile.H"
 #include "particleFields.H"
 #include "surfaceSearch.H"
+#include "patchDictionary.H"
 #include "trackedSurface.H"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ private:
 
     void refuseOther(const dictionary& dict, const word& patch) const
     {
-        const dictionary all = dictionary::fromFile(case_.time.constantFile("boundary"));
+        const dictionary all = readPatchDictionary(case_.caseFolder(), case_.cloud.zones);
         List<word> still;
         for (const word& name : all.dictKeys())
             if (const dictionary& d = all.subDict(name);

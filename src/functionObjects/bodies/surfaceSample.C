@@ -12,6 +12,7 @@
 
 #include "fileNames.H"
 #include "loadedBody.H"
+#include "vtkSurface.H"
 #include <limits>
 
 namespace ispf
@@ -72,8 +73,7 @@ private:
         {
             const vector n = s.facets[k].area.normalized(), none = vector::Constant(blank);
             const fluidAt& f = s.fluid[k];
-            const vector traction = -viscousStress(f, case_) * n;
-            rows.push_back({s.facets[k].centre, f.U, traction - traction.dot(n) * n, f.p, true});
+            rows.push_back({s.facets[k].centre, f.U, shearOn(n, f, case_), f.p, true});
             if (!f.covered) rows.back() = {s.facets[k].centre, none, none, blank, false};
         }
         return rows;
@@ -95,33 +95,20 @@ private:
         return text;
     }
 
-    // Legacy VTK, ascii: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
     word vtkText(const loadedBody& b) const
     {
-        word points, triangles, p, U, shear, covered;
-        size_t nPoints = 0, nTriangles = 0;
+        List<triSurface> surfaces;
+        triangleField p{"p", {}}, U{"U", {}}, shear{"wallShearStress", {}},
+            covered{"covered", {}, {}, true};
         for (const loadedBody::triangulation& s : b.triangulated())
         {
-            for (const vector& x : s.surface.nodes) points += numbers(x) + "\n";
-            for (const auto& t : s.surface.triangles)
-            {
-                triangles += "3";
-                for (const label node : t)
-                    triangles += " " + std::to_string(nPoints + size_t(node));
-                triangles += "\n";
-            }
+            surfaces.push_back(s.surface);
             for (const row& r : rowsOf(s))
-                covered += r.covered ? "1\n" : "0\n", p += number(r.p) + "\n",
-                    U += numbers(r.U) + "\n", shear += numbers(r.shear) + "\n";
-            nPoints += s.surface.nodes.size(), nTriangles += s.surface.triangles.size();
+                covered.scalars.push_back(r.covered), p.scalars.push_back(r.p),
+                    U.vectors.push_back(r.U), shear.vectors.push_back(r.shear);
         }
-        const word n = std::to_string(nTriangles);
-        return "# vtk DataFile Version 3.0\n" + b.name() + " at time " + case_.time.timeName() +
-               "\nASCII\nDATASET POLYDATA\nPOINTS " + std::to_string(nPoints) + " double\n" +
-               points + "POLYGONS " + n + " " + std::to_string(4 * nTriangles) + "\n" + triangles +
-               "CELL_DATA " + n + "\nSCALARS p double 1\nLOOKUP_TABLE default\n" + p +
-               "VECTORS U double\n" + U + "VECTORS wallShearStress double\n" + shear +
-               "SCALARS covered int 1\nLOOKUP_TABLE default\n" + covered;
+        return ispf::vtkText(b.name() + " at time " + case_.time.timeName(), surfaces,
+                             {p, U, shear, covered}, precision(6));
     }
 
     bool vtk_;

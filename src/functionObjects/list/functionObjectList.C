@@ -27,6 +27,13 @@ static stateEntry<List<scalar>> stateOf(const functionObject& f)
     return {"functions." + f.name()};
 }
 
+// Present where a function object carries the field of this name
+const word carriedField = "carriedField.";
+static stateEntry<scalar> carried(const word& field)
+{
+    return {carriedField + field};
+}
+
 }  // namespace entries
 
 functionObjectList::functionObjectList(fsiCase& c)
@@ -88,6 +95,29 @@ void functionObjectList::adopt(List<item> items)
         for (const trigger& t : {i.execute, i.write})
             if (t.control == "adjustableRunTime") intervals.push_back(t.interval);
     case_.time.alsoHit(intervals);
+    carryFields();
+}
+
+// Makes the fields that function objects carry, and removes those of function objects that are there no more
+void functionObjectList::carryFields()
+{
+    // what a run has not written cannot be made later
+    if (case_.time.postProcessing() && case_.time.timeIndex() > 0) return;
+    particleCloud& cloud = case_.cloud;
+    List<word> wanted;
+    for (item& i : items_)
+        for (const word& field : i.object->carriedFields()) wanted.push_back(field);
+    const stepState state = cloud.state;
+    for (const auto& [name, values] : state.values())
+    {
+        if (name.rfind(entries::carriedField, 0) != 0) continue;
+        const word field = name.substr(entries::carriedField.size());
+        if (std::find(wanted.begin(), wanted.end(), field) != wanted.end()) continue;
+        cloud.scalars.erase(field), cloud.vectors.erase(field);
+        cloud.state.erase(entries::carried(field));
+    }
+    for (item& i : items_) i.object->advance(cloud, 0);
+    for (const word& field : wanted) cloud.state.set(entries::carried(field), 1);
 }
 
 void functionObjectList::renew()
@@ -209,6 +239,7 @@ void functionObjectList::execute()
         const bool now = due(i.execute), writes = due(i.write);
         if (!within(i)) continue;
         timed(i, [&] {
+            i.object->advance(case_.cloud, case_.time.deltaT());
             if (now) i.object->execute();
             if (writes) i.object->write();
         });

@@ -18,9 +18,12 @@ made newMomentum(const word&, const dictionary&, const fsiCase&);
 made newPatchFlux(const word&, const dictionary&, const fsiCase&);
 made newPlaneMap(const word&, const dictionary&, const fsiCase&);
 made newProbes(const word&, const dictionary&, const fsiCase&);
+made newResidenceTime(const word&, const dictionary&, const fsiCase&);
+made newSolidStress(const word&, const dictionary&, const fsiCase&);
 made newSurfaceLeaks(const word&, const dictionary&, const fsiCase&);
 made newSurfaceSample(const word&, const dictionary&, const fsiCase&);
 made newVolFieldValue(const word&, const dictionary&, const fsiCase&);
+made newWallShearStress(const word&, const dictionary&, const fsiCase&);
 made newZoneDiameter(const word&, const dictionary&, const fsiCase&);
 
 std::unique_ptr<functionObject> functionObject::New(const word& name, const dictionary& dict,
@@ -38,9 +41,12 @@ std::unique_ptr<functionObject> functionObject::New(const word& name, const dict
                                                 {"patchFlux", newPatchFlux},
                                                 {"planeMap", newPlaneMap},
                                                 {"probes", newProbes},
+                                                {"residenceTime", newResidenceTime},
+                                                {"solidStress", newSolidStress},
                                                 {"surfaceLeaks", newSurfaceLeaks},
                                                 {"surfaceSample", newSurfaceSample},
                                                 {"volFieldValue", newVolFieldValue},
+                                                {"wallShearStress", newWallShearStress},
                                                 {"zoneDiameter", newZoneDiameter}};
     List<word> names;
     for (const auto& t : types) names.push_back(t.first);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shiftingFrame.H"
 
+#include "patchDictionary.H"
+
 #include <algorithm>
 
 namespace ispf
@@ -8,7 +10,7 @@ namespace ispf
 
 word shiftingFrame(const fsiCase& c)
 {
-    const dictionary patches = dictionary::fromFile(c.time.constantFile("boundary"));
+    const dictionary patches = readPatchDictionary(c.caseFolder(), c.cloud.zones);
     const List<word> names = patches.dictKeys();
     const bool endless = std::all_of(names.begin(), names.end(), [&](const word& name) {
         return patches.subDict(name).get<word>("type") == "cyclic";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trackedSurface.H"
 
+#include "disjointSets.H"
 #include "fileNames.H"
 #include "followWeights.H"
 #include "pointGrid.H"
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <numeric>
 
 namespace ispf
 {
@@ -19,6 +22,44 @@ namespace
 
 // Longest edge [dx]: a mesh as coarse as the flat CAD faces would cut off the bulges of the solid
 constexpr scalar longestEdge = 1.5;
+
+using plane = std::pair<vector, vector>;  // point, outward unit normal
+using halfEdges = List<std::array<label, 2>>;
+
+bool isOn(const plane& p, const vector& x, scalar tolerance)
+{
+    return std::abs((x - p.first).dot(p.second)) < tolerance;
+}
+
+void project(vector& x, const plane& p)
+{
+    x -= (x - p.first).dot(p.second) * p.second;
+}
+
+// Mean point of edges, weighted with their lengths
+vector meanOf(const triSurface& s, const halfEdges& edges)
+{
+    vector mean = vector::Zero();
+    scalar length = 0;
+    for (const auto& [a, b] : edges)
+    {
+        const scalar part = (s.nodes[b] - s.nodes[a]).norm();
+        mean += 0.5 * part * (s.nodes[a] + s.nodes[b]), length += part;
+    }
+    return length > 0 ? vector(mean / length) : mean;
+}
+
+// True if the chain of edges has an end on the plane
+bool endsOn(const plane& p, const triSurface& s, const halfEdges& edges)
+{
+    std::map<label, int> balance;  // of a node: edges that leave it less edges that reach it
+    for (const auto& [a, b] : edges) ++balance[a], --balance[b];
+    return std::any_of(edges.begin(), edges.end(), [&](const std::array<label, 2>& e) {
+        const scalar near = 1e-3 * (s.nodes[e[1]] - s.nodes[e[0]]).norm();
+        return (balance[e[0]] != 0 && isOn(p, s.nodes[e[0]], near)) ||
+               (balance[e[1]] != 0 && isOn(p, s.nodes[e[1]], near));
+    });
+}
 
 }  // namespace
 
@@ -36,7 +77,7 @@ triSurface readSurface(const word& name, const fsiCase& c, const fileLocation& w
 }
 
 trackedSurface::trackedSurface(const word& name, const fsiCase& c, const fileLocation& where)
-    : name_(name)
+    : name_(name), where_(where)
 {
     if (c.cloud.nSolid() == 0)
         throw fatalError("Surface " + name + " is to follow a solid, but the case has none", where);
@@ -46,12 +87,12 @@ trackedSurface::trackedSurface(const word& name, const fsiCase& c, const fileLoc
     factor_ = c.walls->symmetryFactor();
     if (const boundBox box = rest_.bounds(); c.cloud.nDims == 2) height_ = box.max[2] - box.min[2];
     attach(c, where);
-    findRim(*c.walls);
-    findApex(*c.walls);
+    findRims(*c.walls);
+    findOrigin(*c.walls);
     // normals point into the fluid, as generateParticles writes them, unless the volume at rest is negative
     scalar area = 0;
     for (label t = 0; t < rest_.size(); ++t) area += rest_.areaVector(t).norm();
-    if (restVolume() < -1e-3 * area * c.cloud.dx) sign_ = 1;
+    if (volumeBelow(rest_) < -1e-3 * area * c.cloud.dx) sign_ = 1;
     now_ = rest_;
     update(c.cloud.x);
 }
@@ -93,8 +134,9 @@ void trackedSurface::attach(const fsiCase& c, const fileLocation& where)
     }
 }
 
-void trackedSurface::findRim(const boundary& walls)
+List<trackedSurface::halfEdge> trackedSurface::rimEdges(const boundary& walls) const
 {
+    List<halfEdge> edges;
     for (const auto& [a, b] : openHalfEdges(rest_))
     {
         // in two dimensions the rim consists of the ends alone, without the edges of the slice
@@ -102,27 +144,44 @@ void trackedSurface::findRim(const boundary& walls)
         if (height_ > 0 && std::abs(edge[2]) < 1e-3 * height_) continue;
         const vector middle = rest_.nodes[a] + 0.5 * edge;
         bool onPlane = false;
-        for (const auto& [point, normal] : walls.symmetryPlanes())
-            onPlane = onPlane || std::abs((middle - point).dot(normal)) < 1e-4 * edge.norm();
-        if (!onPlane) rim_.push_back({a, b});
+        for (const plane& p : walls.symmetryPlanes())
+            onPlane = onPlane || isOn(p, middle, 1e-4 * edge.norm());
+        if (!onPlane) edges.push_back({a, b});
     }
+    return edges;
 }
 
-// The mean point of the rim, projected to every symmetry plane: then these planes add no volume
-void trackedSurface::findApex(const boundary& walls)
+// Edges with a common node belong to one rim.  In two dimensions the cap of an opening leads from end to end, or from the only
+// end to a symmetry plane: all ends are one rim
+void trackedSurface::findRims(const boundary& walls)
 {
-    apex_ = vector::Zero();
-    scalar length = 0;
-    for (const auto& [a, b] : rim_)
+    const List<plane> planes = walls.symmetryPlanes();
+    const List<halfEdge> edges = rimEdges(walls);
+    List<label> sets(rest_.nodes.size());
+    std::iota(sets.begin(), sets.end(), 0);
+    for (const auto& [a, b] : edges) join(sets, a, height_ > 0 ? edges[0][0] : b);
+    std::map<label, rim> found;
+    for (const halfEdge& e : edges) found[representative(sets, e[0])].edges.push_back(e);
+    for (auto& [set, r] : found)
     {
-        const scalar part = (rest_.nodes[b] - rest_.nodes[a]).norm();
-        apex_ += 0.5 * part * (rest_.nodes[a] + rest_.nodes[b]), length += part;
+        r.apex = meanOf(rest_, r.edges);
+        for (const plane& p : planes)
+            if (height_ > 0 ? edges.size() == 1 : endsOn(p, rest_, r.edges)) project(r.apex, p);
+        rims_.push_back(std::move(r));
     }
-    if (length > 0) apex_ /= length;
+    if (height_ > 0 && edges.size() > (planes.empty() ? 2 : 1))
+        notClosed_ = "its lines have " + std::to_string(edges.size()) + " free ends" +
+                     (planes.empty() ? "" : " beside the symmetry planes") +
+                     ", and it is not known which of them an opening joins";
+}
+
+void trackedSurface::findOrigin(const boundary& walls)
+{
+    origin_ = vector::Zero();
+    for (const rim& r : rims_) origin_ += r.apex / scalar(rims_.size());
     // onto all planes; for orthogonal planes one sweep is enough
     for (int sweep = 0; sweep < 20; ++sweep)
-        for (const auto& [point, normal] : walls.symmetryPlanes())
-            apex_ -= (apex_ - point).dot(normal) * normal;
+        for (const plane& p : walls.symmetryPlanes()) project(origin_, p);
 }
 
 void trackedSurface::update(const List<vec4>& x)
@@ -137,19 +196,31 @@ void trackedSurface::update(const List<vec4>& x)
     });
 }
 
-// A ribbon closes the way of the rim since rest: a rim that moves along with a wall leaves no gap
+scalar trackedSurface::volume(const triSurface& s) const
+{
+    if (!notClosed_.empty())
+        throw fatalError("The volume inside " + name_ + " is not known: " + notClosed_ +
+                             ". Take a surface that symmetry planes and one opening close, or "
+                             "measure the flow with patchFlux.",
+                         where_);
+    return volumeBelow(s);
+}
+
+// A ribbon closes the way of a rim since rest: a rim that moves along with a wall leaves no gap
 scalar trackedSurface::volumeBelow(const triSurface& s) const
 {
     scalar volume = 0;
     const auto add = [&](const vector& a, const vector& b, const vector& c) {
-        volume += 0.5 * (a - apex_).dot((b - a).cross(c - a));
+        volume += 0.5 * (a - origin_).dot((b - a).cross(c - a));
     };
     for (label t = 0; t < s.size(); ++t) add(s.corner(t, 0), s.corner(t, 1), s.corner(t, 2));
-    for (const auto& [a, b] : rim_)
-    {
-        add(s.nodes[b], s.nodes[a], rest_.nodes[a]);
-        add(s.nodes[b], rest_.nodes[a], rest_.nodes[b]);
-    }
+    for (const rim& r : rims_)
+        for (const auto& [a, b] : r.edges)
+        {
+            add(s.nodes[b], s.nodes[a], rest_.nodes[a]);
+            add(s.nodes[b], rest_.nodes[a], rest_.nodes[b]);
+            add(r.apex, rest_.nodes[b], rest_.nodes[a]);
+        }
     return sign_ * volume * factor_ / (height_ > 0 ? 2 * height_ : 3);
 }
 

@@ -3,6 +3,7 @@
 
 #include "bodySurface.H"
 #include "fileNames.H"
+#include "patchDictionary.H"
 #include "shapes.H"
 #include "siteFile.H"
 #include "surfaceTopology.H"
@@ -77,32 +78,51 @@ particleDict::particleDict(const word& caseFolder)
 
 void particleDict::readBoundary()
 {
-    const dictionary boundary = dictionary::fromFile(caseFolder_ + "/constant/boundary");
-    for (const word& name : boundary.dictKeys())
-    {
-        const dictionary& patch = boundary.subDict(name);
-        checkName(boundary, name);
-        if (patch.found("clamps"))
-            for (const word& zone : patch.get<List<word>>("clamps")) clamped_.insert(zone);
-        const word type = patch.choose("type", {"wall", "open", "symmetryPlane", "cyclic"});
-        patchInfo info{name, patchInfo::kind::other, patch.found("motion")};
-        if (type == "wall") info.type = patchInfo::kind::wall;
-        if (type == "open") info.type = patchInfo::kind::open;
-        if (type == "symmetryPlane" || type == "cyclic" || patch.found("point"))
+    boundary_ = dictionary::fromFile(caseFolder_ + "/constant/boundary");
+    for (const word& name : boundary_.dictKeys()) addPatch(name);
+    // patches that a pattern names: those of the particleDict here, others once the surfaces are known
+    for (const word& name : dict_.subOrEmptyDict("patches").dictKeys()) addByPattern(name);
+}
+
+void particleDict::addByPattern(const word& name)
+{
+    if (resolvePattern(boundary_, name)) addPatch(name);
+}
+
+void particleDict::addByPatterns(const List<body>& bodies)
+{
+    for (const body& b : bodies)
+        for (label t = 0; t < b.surface.size(); ++t)
         {
-            halfSpace side;
-            side.point = patch.get<vector>("point", dims::length);
-            const word key = type == "cyclic" ? "separation" : "normal";
-            side.normal = patch.get<vector>(key, type == "cyclic" ? dims::length : dims::none);
-            if (side.normal.norm() == 0) patch.fail(key, key + " must not be zero");
-            const vector shift = side.normal;
-            side.normal.normalize();
-            if (type == "symmetryPlane") planes_.push_back(side);
-            else flatPatches_.push_back({name, side});
-            if (type == "cyclic") flatPatches_.push_back({name, {side.point + shift, side.normal}});
+            const word& name = b.surface.patchNames[b.surface.patch[t]];
+            addByPattern(name.empty() ? defaultPatch_ : name);
         }
-        if (type != "symmetryPlane") patches_.push_back(info);
+}
+
+void particleDict::addPatch(const word& name)
+{
+    const dictionary& patch = boundary_.subDict(name);
+    checkName(boundary_, name);
+    if (patch.found("clamps"))
+        for (const word& zone : patch.get<List<word>>("clamps")) clamped_.insert(zone);
+    const word type = patch.choose("type", {"wall", "open", "symmetryPlane", "cyclic"});
+    patchInfo info{name, patchInfo::kind::other, patch.found("motion")};
+    if (type == "wall") info.type = patchInfo::kind::wall;
+    if (type == "open") info.type = patchInfo::kind::open;
+    if (type == "symmetryPlane" || type == "cyclic" || patch.found("point"))
+    {
+        halfSpace side;
+        side.point = patch.get<vector>("point", dims::length);
+        const word key = type == "cyclic" ? "separation" : "normal";
+        side.normal = patch.get<vector>(key, type == "cyclic" ? dims::length : dims::none);
+        if (side.normal.norm() == 0) patch.fail(key, key + " must not be zero");
+        const vector shift = side.normal;
+        side.normal.normalize();
+        if (type == "symmetryPlane") planes_.push_back(side);
+        else flatPatches_.push_back({name, side});
+        if (type == "cyclic") flatPatches_.push_back({name, {side.point + shift, side.normal}});
     }
+    if (type != "symmetryPlane") patches_.push_back(info);
 }
 
 const cadModel& particleDict::model(const dictionary& dict)
@@ -361,6 +381,7 @@ zoneGeometry particleDict::geometry()
     for (const word& key : dict_.keys())  // an included file may have entries for others
         if (dict_.where(key).file != dict_.path()) dict_.tokens(key);
     dict_.checkAllRead();
+    addByPatterns(bodies);
     return zoneGeometry(zones_, patches_, std::move(bodies), planes_, defaultPatch_, dx, nDims);
 }
 
