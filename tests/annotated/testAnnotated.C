@@ -45,6 +45,9 @@ const home homes[] = {
     {"case/fsiCase", "solution", "sphSolution"},
     {"case/fsiCase", "g|dict|", "g"},
     {"case/fsiCase", "physical|zoneRho|perZone", "physicalProperties"},
+    {"case/viscosityModel", "", "physicalProperties"},
+    {"monolithic/outsideWall", "", "structureProperties"},
+    {"schemes/", "c.structureProperties", "structureProperties"},
     {"schemes/|case/", "", "sphSolution"},
     {"generateParticles/particleDict", "patch|boundary", "boundary"},
     {"generateParticles/", "", "particleDict"},
@@ -68,7 +71,8 @@ word homeOf(const request& r)
 bool isName(const request& r)
 {
     static const std::set<word> names = {
-        "name", "w.name", "own.name", "face.name()", "zone", "key", "found", "present", ""};
+        "name",         "w.name", "own.name", "face.name()", "zone",
+        "zoneNames[z]", "key",    "found",    "present",     ""};
     return names.count(r.arguments[0]) != 0;
 }
 

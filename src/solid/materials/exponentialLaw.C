@@ -110,14 +110,10 @@ void checkPositive(const form& B, const dictionary& dict, const word& key)
 
 std::unique_ptr<material> newFung(const dictionary& dict, const List<vector>& x0)
 {
-    const auto numbers = [&](const word& key, size_t n) {
-        const List<scalar> b = dict.get<List<scalar>>(key);
-        if (b.size() != n)
-            dict.fail(key, "This needs " + std::to_string(n) + " numbers, not " +
-                               std::to_string(b.size()));
-        return b;
-    };
-    const List<scalar> normal = numbers("normal", 6), shear = numbers("shear", 3);
+    const List<scalar> normal = dict.get<List<scalar>>("normal"),
+                       shear = dict.get<List<scalar>>("shear");
+    if (normal.size() != 6) dict.fail("normal", "This needs 6 numbers: b11 b22 b33 b12 b23 b31");
+    if (shear.size() != 3) dict.fail("shear", "This needs 3 numbers: of 12, 23 and 31");
     form B = form::Zero();
     for (int i = 0; i < 3; ++i) add(B, normal[i], i, i, i, i);
     for (int i = 0; i < 3; ++i)

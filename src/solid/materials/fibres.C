@@ -41,25 +41,28 @@ List<direction> helix(const dictionary& dict)
     return all;
 }
 
+direction formulaOf(const List<word>& texts, const fileLocation& where)
+{
+    List<std::shared_ptr<expression>> parts;
+    for (const word& text : texts)
+        parts.push_back(std::make_shared<expression>(text, List<word>{"x", "y", "z"},
+                                                     std::map<word, scalar>{}, where));
+    if (parts.size() != 3)
+        throw fatalError(
+            "A direction has three formulas of x, y and z, not " + std::to_string(parts.size()),
+            where);
+    return [parts](const vector& x) -> vector {
+        const List<scalar> at = {x[0], x[1], x[2]};
+        return {(*parts[0])(at), (*parts[1])(at), (*parts[2])(at)};
+    };
+}
+
 List<direction> formula(const dictionary& dict)
 {
-    List<direction> all;
-    for (label family = 1;; ++family)
-    {
-        const word key = "direction" + std::to_string(family);
-        if (family > 1 && !dict.found(key)) return all;
-        List<std::shared_ptr<expression>> parts;
-        for (const word& text : dict.get<List<word>>(key))
-            parts.push_back(std::make_shared<expression>(
-                text, List<word>{"x", "y", "z"}, std::map<word, scalar>{}, dict.where(key)));
-        if (parts.size() != 3)
-            dict.fail(key, "A direction has three formulas of x, y and z, not " +
-                               std::to_string(parts.size()));
-        all.push_back([parts](const vector& x) -> vector {
-            const List<scalar> at = {x[0], x[1], x[2]};
-            return {(*parts[0])(at), (*parts[1])(at), (*parts[2])(at)};
-        });
-    }
+    List<direction> all = {formulaOf(dict.get<List<word>>("direction1"), dict.where("direction1"))};
+    if (dict.found("direction2"))
+        all.push_back(formulaOf(dict.get<List<word>>("direction2"), dict.where("direction2")));
+    return all;
 }
 
 }  // namespace
