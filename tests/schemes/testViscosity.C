@@ -3,6 +3,7 @@
 // stress is tau = rho a |y|; the profile is the integral of the shear rate g with mu(g) g = tau
 #include "boxCase.H"
 #include "core/errorOf.H"
+#include "pairViscosity.H"
 #include "relative.H"
 #include "viscosityModel.H"
 
@@ -106,6 +107,18 @@ TEST_CASE("a Newtonian fluid has no field of viscosities; a shear-thinning one k
     runningBox blood(channel("projection", Casson), "blood");
     blood.run(0.05, 1);
     CHECK(blood.c.cloud.scalars.at("viscosityRatio").size() == size_t(blood.c.cloud.n()));
+}
+
+TEST_CASE(
+    "pairs: the harmonic mean; what has just entered counts with the limit at high shear rates")
+{
+    particleCloud cloud = scene::fluid({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 1);
+    CHECK(pairViscosity(cloud).of(0, 1) == 1);
+    cloud.scalars[viscosityRatio] = {3, 6, 0};
+    const pairViscosity v(cloud);
+    CHECK(v.of(0, 1) == relative(4, 1e-14));
+    CHECK(v.of(2, 0) == relative(1.5, 1e-14));
+    CHECK(v.of(2, 2) == 1);
 }
 
 TEST_CASE("a wrong viscosity is refused with what would be right")

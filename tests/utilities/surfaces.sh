@@ -40,12 +40,11 @@ boxes 0 0 0 10 10 10 | awk '{ print $1, $2, $3, $7, $8, $9, $4, $5, $6 }' | stl 
 accepted "inside out" "repaired *all normals pointed inwards" "^water .* 1000 "
 boxes 0 0 0 10 10 0.8 | stl part > constant/part.stl
 dict "$stl" 1e-3 "weldTolerance 1e-7;"
-accepted "a thin plate" "encloses 0.0008 m = 0.8 dx at .*, its thinnest place"
-[ "$(grep -c 0.0008 out)" = 2 ] || fail "a thin plate: its thickness is told $(($(grep -c 0.0008 out) - 1)) times beside its box"
+accepted "a thin plate" "thinnest *0.0008 m = 0.8 dx at" "encloses 0.0008 m = 0.8 dx at .*, its thinnest place"
 # two bodies, half a spacing apart
 boxes 0 0 0 10 10 10 10.5 0 0 20 10 10 | stl part > constant/part.stl
 dict "$stl"
-accepted "a gap" "leaves a gap of 0.0005 m = 0.5 dx at \(0.01025 " "2 part\(s\)"
+accepted "a gap" "gap *0.0005 m = 0.5 dx at \(0.01025 " "leaves a gap of 0.0005 m = 0.5 dx at \(0.01025 " "2 part\(s\)"
 # a hole smaller than a particle
 { boxes 0 0 0 10 10 10 | awk 'NR != 3'
   printf '%s 10\n' '0 0 10 10 0 10 9.5 8' '0 0 10 9.5 8 10 9 8' '10 0 10 10 10 10 9.5 8.5' '10 0 10 9.5 8.5 10 9.5 8' \

@@ -181,15 +181,13 @@ private:
     void reportFeatures() const
     {
         const featureSizes sizes = smallestFeatures(s_, dx_, flat_);
-        // a size that a warning tells is not told twice
-        const auto say = [&](const char* what, const featureSize& f, scalar warnedBelow) {
-            if (f.found() && f.size >= warnedBelow * dx_)
-                line(what, inSpacings(f.size, dx_) + " at " + place(f.at, 1e-9 * dx_));
+        const auto say = [&](const char* what, const featureSize& f) {
+            if (f.found()) line(what, inSpacings(f.size, dx_) + " at " + place(f.at, 1e-9 * dx_));
         };
-        say("thinnest", sizes.thickness, 2);
-        say("gap", sizes.gap, 1);
+        say("thinnest", sizes.thickness);
+        say("gap", sizes.gap);
         const featureSize radius = smallestRadius(s_, dx_, flat_);
-        if (radius.found() && radius.size >= 2 * dx_)
+        if (radius.found())
             line("rounding",
                  "radius " + inSpacings(radius.size, dx_) + " at " + place(radius.at, 1e-9 * dx_));
         if (radius.size < 2 * dx_)
