@@ -28,7 +28,7 @@ namespace ispf
 namespace
 {
 
-// What a triangle has seen since the start
+// A triangle sums these from the start on
 struct history
 {
     scalar time = 0, size = 0;  // int dt [s], int |tau| dt [Pa s]
