@@ -4,6 +4,7 @@
 
 #include "cloudIO.H"
 #include "patchDictionary.H"
+#include "solidState.H"
 #include "sphc.H"
 #include "wallFriction.H"
 
@@ -43,6 +44,7 @@ fsiCase::fsiCase(Time& t) : time(t)
     readKernel();
     readBoundary();
     readStructure();
+    recallSolid(*this);
 }
 
 void fsiCase::readBoundary()
@@ -69,6 +71,7 @@ void fsiCase::read()
                          "than the time before: it belongs to another case");
     cloud = std::move(then);
     readBoundary();
+    recallSolid(*this);
 }
 
 void fsiCase::readProperties()

@@ -5,6 +5,7 @@
 #include "deformation.H"
 #include "execution.H"
 #include "shiftingFrame.H"
+#include "solidState.H"
 #include "stepReport.H"
 
 #include <cmath>
@@ -96,8 +97,7 @@ bool couplingScheme::accepted(scalar t, scalar dt, int halvings, int most)
 {
     before_ = c_.cloud;
     word reason = attempt(t, dt);
-    for (int k = 0; reason == outletsAsk && k < mostAsked; ++k)
-        c_.cloud = before_, reason = attempt(t, dt);
+    for (int k = 0; reason == outletsAsk && k < mostAsked; ++k) undo(), reason = attempt(t, dt);
     if (reason.empty()) return true;
     if (halvings == most)
         throw fatalError("Time " + str(t) + " s: a step of " + str(dt) +
@@ -105,8 +105,15 @@ bool couplingScheme::accepted(scalar t, scalar dt, int halvings, int most)
                          " steps, each twice as long as the next, were refused. " + advice() +
                          ". The last written time is intact");
     warning("time " + str(t) + " s: step of " + str(dt) + " s halved: " + reason, 20);
-    c_.cloud = before_;
+    undo();
     return false;
+}
+
+// The state before the attempted step
+void couplingScheme::undo()
+{
+    c_.cloud = before_;
+    recallSolid(c_);
 }
 
 // Mean velocity if only cyclic patches bound the case (shiftingFrame.H), else zero
@@ -220,6 +227,21 @@ void couplingScheme::move(const timeScheme& time, bool mean)
     energy_.shifts([&] {
         for (size_t i = 0; i < toSolid_.size(); ++i) c_.cloud.Up[i].s += toSolid_[i].s;
     });
+}
+
+void couplingScheme::beginMemory(const timeScheme& time, scalar ahead)
+{
+    if (solidMemory* memory = c_.structure ? c_.structure->memory() : nullptr)
+        memory->begin(time.startPlaces(c_.cloud), ahead);
+}
+
+void couplingScheme::endMemory(scalar dt)
+{
+    solidMemory* memory = c_.structure ? c_.structure->memory() : nullptr;
+    if (!memory) return;
+    const scalar lost = memory->end(c_.cloud.x, dt);
+    energy_[energyLedger::viscosity] -= lost, energy_[energyLedger::springs] += lost;
+    keepSolid(c_);
 }
 
 word couplingScheme::gains(scalar dt) const

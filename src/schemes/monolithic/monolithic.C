@@ -170,6 +170,7 @@ couplingScheme::stepLimit monolithic::admitted() const
 void monolithic::structureState()
 {
     if (!c_.structure) return;
+    beginMemory(time_, time_.velocitiesAhead());
     elastic_.begin(time_.elasticStart(c_.cloud), time_.tau());
     c_.structure->deformationGradient(c_.cloud.x, F_);
     const List<isometry>& images = c_.structure->reference().images;
@@ -337,6 +338,7 @@ word monolithic::attempt(scalar t, scalar dt)
     c_.followOpen(system_.rows().viscous(), dt);  // strips follow the fluid, theory 4.2
     shift(shifting_, dt);                         // with the present neighbours, (8.30) to (8.36)
     move(time_);                                  // (8.42) with u_b for F
+    endMemory(dt);                                // (5.35)
     energy_.end();
     if (const word reason = gains(dt); !reason.empty()) return reason;  // (8.40)
     energy_.book();

@@ -85,6 +85,12 @@ public:
             c.structureProperties.fail("outside",
                                        "coupling projection knows nothing outside the solid. Take "
                                        "coupling monolithic, or surround the solid with fluid");
+        if (c.structure && c.structure->damps())
+            c.structureProperties.fail(
+                "structureModel",
+                "The solid has a viscosity, for which coupling projection, with its explicit "
+                "forces of the solid, has no term. Take coupling monolithic, or 'relaxation' in "
+                "place of 'viscosity'");
         if (time_.secondOrder() && mean_) refuse("positionUpdate");
         if (time_.secondOrder() && dict_.getOrDefault<scalar>("reflection", 0) > 0)
             refuse("reflection");
@@ -208,6 +214,7 @@ void projection::begin(scalar t, scalar dt)
     hydrostatic_.setStep(t, t + dt);
     slope_ = c_.walls->pressureSlope();
     energy_.begin(time_.startPlaces(cloud));
+    beginMemory(time_, 0);
     time_.begin(cloud);
 }
 
@@ -235,6 +242,7 @@ word projection::attempt(scalar t, scalar dt)
     c_.followOpen(step_.viscous(), dt);  // strips follow the fluid, theory 4.2
     shift(shifting_, dt);                // with the present neighbours, (8.30) to (8.36)
     move(time_, mean_);                  // (8.42) with u_b for F
+    endMemory(dt);                       // (5.35)
     energy_.end();
     if (const word reason = gains(dt); !reason.empty()) return reason;  // (8.40)
     energy_.book();

@@ -13,6 +13,7 @@
 #include "forPairs.H"
 #include "stencilTangent.H"
 #include "structureModel.H"
+#include "transientNetworks.H"
 #include "volumeStiffness.H"
 #include "zoneMaterials.H"
 
@@ -77,6 +78,9 @@ public:
         findActive();
         setMoments();
         tangent_ = std::make_unique<stencilTangent>(ref_, fit_, active_);
+        if (materials_.remembers())
+            networks_ =
+                std::make_unique<transientNetworks>(materials_, fit_, active_, ref_.volume());
     }
 
     void force(const List<vec4>& x, List<vec4>& f) const override;
@@ -88,7 +92,8 @@ public:
     void assembleDamping(const List<vec4>& x, blockMatrix3& D) const override;
     List<label> linkCounts() const override;
     word description() const override;
-    scalar shearModulus(label k) const override { return materials_.shearModulus(k); }
+    scalar shearModulus(label k) const override { return materials_.fastModulus(k); }
+    solidMemory* memory() override { return networks_.get(); }
 
 private:
     void findActive();
@@ -105,10 +110,18 @@ private:
     {
         return bond(x, k, p) + F * pairs_.separation(ref_, k, p);
     }
-    // dW/dF of the first two parts of (5.19)
+    bool remembers(label k) const { return networks_ && networks_->acts(k); }
+    // The first two parts of (5.19), with (5.30), and their derivative
+    scalar energyOf(const tensor& F, label k) const
+    {
+        return materials_.energy(F, k) + volumeOf(k).energy(F) +
+               (remembers(k) ? networks_->energy(F, k) : 0);
+    }
     tensor stressOf(const tensor& F, label k) const
     {
-        return materials_.stress(F, k) + volumeOf(k).stress(F);
+        tensor P = materials_.stress(F, k) + volumeOf(k).stress(F);
+        if (remembers(k)) P += networks_->stress(F, k);
+        return P;
     }
     volumeStiffness volumeOf(label k) const { return {volumeShare * materials_.shearModulus(k)}; }
     modulusMatrix modulus(const tensor& F, tangentKind kind, label k) const;
@@ -122,6 +135,7 @@ private:
     List<tensor> moment_;  // M_k [m^2]
     List<scalar> star_;    // c_k of (5.20), zero where k is not active
     std::unique_ptr<stencilTangent> tangent_;
+    std::unique_ptr<transientNetworks> networks_;  // null: no material has a memory
 };
 
 void totalLagrangian::findActive()
@@ -175,7 +189,7 @@ scalar totalLagrangian::energy(const List<vec4>& x) const
         for (label k = begin; k < end; ++k)
         {
             if (!active_[k]) continue;
-            sum += ref_.volume() * (materials_.energy(F[k], k) + volumeOf(k).energy(F[k]));
+            sum += ref_.volume() * energyOf(F[k], k);
             forNeighbours<among::all>(pairs_, k, [&](pairIndex p, label) {
                 sum += 0.5 * star_[k] * fit_.weight(p) * missed(x, F[k], k, p).squaredNorm();
             });
@@ -210,6 +224,7 @@ void totalLagrangian::stress(const List<vec4>& x, List<tensor>& tau) const
 modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label k) const
 {
     modulusMatrix C = materials_.tangent(F, k) + volumeOf(k).tangent(F);
+    if (remembers(k)) C += networks_->tangent(F, k);
     const bool plane = ref_.nDims == 2;
     if (plane) keepPlane(C);
     if (kind == tangentKind::positive) C = positivePart(C);

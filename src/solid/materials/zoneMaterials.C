@@ -8,6 +8,34 @@
 namespace ispf
 {
 
+namespace
+{
+
+List<relaxationBranch> branchesOf(const dictionary& dict, scalar G)
+{
+    if (!dict.found("relaxation")) return {};
+    const dictionary& own = dict.subDict("relaxation");
+    const List<scalar> moduli = own.get<List<scalar>>("moduli"),
+                       times = own.get<List<scalar>>("times", dims::time);
+    if (moduli.size() != times.size() || moduli.empty())
+        own.fail("moduli", "A branch has one modulus and one time: there are " +
+                               std::to_string(moduli.size()) + " moduli and " +
+                               std::to_string(times.size()) + " times");
+    List<relaxationBranch> branches;
+    for (size_t i = 0; i < moduli.size(); ++i)
+    {
+        const word which = " of branch " + std::to_string(i + 1) + " must be from 1e-12 to ";
+        if (!(moduli[i] >= 1e-12 && moduli[i] <= 1e6))
+            own.fail("moduli", "The modulus " + str(moduli[i]) + which + "1e6, in units of G");
+        if (!(times[i] >= 1e-12 && times[i] <= 1e12))
+            own.fail("times", "The time " + str(times[i]) + " s" + which + "1e12 s");
+        branches.push_back({moduli[i] * G, times[i]});
+    }
+    return branches;
+}
+
+}  // namespace
+
 zoneMaterials::zoneMaterials(const dictionary& dict, const List<vector>& x0,
                              const List<label>& zone, const List<word>& zoneNames)
     : law_(x0.size(), 0), place_(x0.size())
@@ -55,6 +83,9 @@ void zoneMaterials::add(const dictionary& dict, const List<vector>& x0)
     modulus_.push_back(laws_.back()->shearModulus());
     viscosity_.push_back(
         dict.getInRangeOrDefault<scalar>("viscosity", 0, 1e15, 0, dims::dynamicViscosity));
+    branches_.push_back(branchesOf(dict, modulus_.back()));
+    fast_.push_back(modulus_.back());
+    for (const relaxationBranch& b : branches_.back()) fast_.back() += b.G;
 }
 
 bool zoneMaterials::damps() const
@@ -62,9 +93,15 @@ bool zoneMaterials::damps() const
     return std::any_of(viscosity_.begin(), viscosity_.end(), [](scalar v) { return v > 0; });
 }
 
+bool zoneMaterials::remembers() const
+{
+    return std::any_of(branches_.begin(), branches_.end(),
+                       [](const auto& b) { return !b.empty(); });
+}
+
 scalar zoneMaterials::stiffest() const
 {
-    return *std::max_element(modulus_.begin(), modulus_.end());
+    return *std::max_element(fast_.begin(), fast_.end());
 }
 
 word zoneMaterials::description() const
@@ -73,7 +110,11 @@ word zoneMaterials::description() const
     for (size_t m = 0; m < laws_.size(); ++m)
         each.push_back((names_.empty() ? "" : names_[m] + " ") + laws_[m]->description() + ", G " +
                        str(modulus_[m], 4) + " Pa, E = 3 G " + str(3 * modulus_[m], 4) + " Pa" +
-                       (viscosity_[m] > 0 ? ", viscosity " + str(viscosity_[m], 4) + " Pa s" : ""));
+                       (viscosity_[m] > 0 ? ", viscosity " + str(viscosity_[m], 4) + " Pa s" : "") +
+                       (branches_[m].empty()
+                            ? ""
+                            : ", " + std::to_string(branches_[m].size()) +
+                                  " relaxing branches, G at once " + str(fast_[m], 4) + " Pa"));
     return join(each, "; ");
 }
 
