@@ -12,7 +12,7 @@ LIBS := core/base core/dictionary core/control geometry surfaceTools fileFormats
         linearSolvers/matrices linearSolvers/direct linearSolvers/multigrid linearSolvers/krylov \
         operators/pairs operators/order \
         boundary/surfaces boundary/walls boundary/open boundary/patches \
-        solid/reference solid/surface solid/springs solid/materials solid/discretisations solid/selection case \
+        solid/reference solid/surface solid/materials solid/springs solid/discretisations solid/selection case \
         schemes/common schemes/projection schemes/monolithic schemes/selection \
         functionObjects/base functionObjects/fields functionObjects/bodies functionObjects/list
 
@@ -36,8 +36,8 @@ USES_boundary/open           := boundary/surfaces
 USES_boundary/patches        := boundary/walls boundary/open
 USES_solid/reference         := linearSolvers/matrices particles core/dictionary
 USES_solid/surface           := solid/reference
-USES_solid/springs           := solid/reference linearSolvers/krylov
 USES_solid/materials         := core/dictionary
+USES_solid/springs           := solid/reference solid/materials linearSolvers/krylov
 USES_solid/discretisations   := solid/reference solid/materials
 USES_solid/selection         := solid/springs solid/discretisations
 USES_case                    := boundary/patches operators/order solid/selection

@@ -2,6 +2,8 @@
 #include "fibres.H"
 
 #include "expression.H"
+#include "fibrePoints.H"
+#include "fileNames.H"
 #include "messages.H"
 
 #include <cmath>
@@ -65,13 +67,37 @@ List<direction> formula(const dictionary& dict)
     return all;
 }
 
+List<direction> points(const dictionary& dict)
+{
+    csvFormat format;
+    format.separator = dict.getOrDefault<word>("separator", ",");
+    format.nHeaderLine = dict.getInRangeOrDefault<label>("nHeaderLine", 0, 1000, 1);
+    const List<word> columns =
+        dict.getOrDefault<List<word>>("columns", {"x", "y", "z", "fx", "fy", "fz"});
+    if (columns.size() != 6)
+        dict.fail("columns", "Six columns are wanted, (x y z fx fy fz), not " +
+                                 std::to_string(columns.size()));
+    const fibrePoints::rule rule = {dict.getInRangeOrDefault<label>("neighbours", 1, 100, 4),
+                                    dict.getInRange("farthest", 1e-12, 1e3, dims::length)};
+    const word caseFolder = folderOf(folderOf(dict.path()));
+    List<direction> all;
+    for (const word& file : dict.get<List<word>>("files"))
+    {
+        format.path = fromFolder(caseFolder, expandPath(file));
+        if (!isFile(format.path)) dict.fail("files", "There is no file " + format.path);
+        const auto family = std::make_shared<fibrePoints>(format, columns, rule, dict);
+        all.push_back([family](const vector& x) { return family->at(x); });
+    }
+    return all;
+}
+
 }  // namespace
 
 fibreDirections::fibreDirections(const dictionary& dict, const List<vector>& x0)
 {
     const std::map<word, List<direction> (*)(const dictionary&)> kinds = {
-        {"uniform", uniform}, {"helix", helix}, {"formula", formula}};
-    const word kind = dict.choose("type", {"uniform", "helix", "formula"});
+        {"uniform", uniform}, {"helix", helix}, {"formula", formula}, {"points", points}};
+    const word kind = dict.choose("type", {"uniform", "helix", "formula", "points"});
     for (const direction& at : kinds.at(kind)(dict))
     {
         family_.emplace_back();

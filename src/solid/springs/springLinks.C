@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "springLinks.H"
+#include "fibreWeights.H"
 #include "forPairs.H"
 #include "springModuli.H"
 #include "stiffnessFit.H"
@@ -80,6 +81,8 @@ springLinks::springLinks(const dictionary& dict, const structureReference& ref)
     else setFitted(dict, ref);
     summary = "links " + rule + ", " + str(scalar(pairs.nPairs()) / ref.n(), 3) +
               " per particle, G " + str(G, 4) + " Pa, E = 3 G " + str(3 * G, 4) + " Pa, " + summary;
+    if (const word weights = weighAlongFibres(dict, ref, pairs, k); !weights.empty())
+        summary += ", " + weights;
 }
 
 void springLinks::checkLattice(const dictionary& dict, const structureReference& ref) const

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Structure model of particles tied by permanent linear springs: Monteleone et al., Eq. (2),
+// Structure model of particles tied by permanent springs.  Linear ones are those of Monteleone et al., Eq. (2),
 //
 //     m_s f_s = k_e h sum_j (d0_sj - d_sj) (x_s - x_j)/d_sj,      k = k_e h
 //
@@ -7,10 +7,13 @@
 // i, its inverse in row j.  The energy counts each as half, so that a quarter of a body between two
 // symmetry planes has a quarter of its energy, and
 //
-//     f_i = -sum k (d - d0) n,   K_ii += A,   K_ij -= A R,   A = k [n n^T + (1 - d0/d)(I - n n^T)]
-//     tau_i = 1/(2 V) sum k (d - d0) d n n^T
+//     f_i = -sum t d n,   K_ii += A,   K_ij -= A R,   A = s n n^T + t (I - n n^T)
+//     tau_i = 1/(2 V) sum t d^2 n n^T
+//
+// t is the link's force over d, s its slope (linkLaw.H): k (1 - d0/d) and k if the link is linear.
 //
 // A link to an image of the particle itself has its -A R in an entry of column i: K_ii is the same as in a whole body.
+#include "linkLaw.H"
 #include "springLinks.H"
 #include "structureModel.H"
 #include "forPairs.H"
@@ -54,34 +57,39 @@ linkTable movingLinks(const springLinks& all, const List<char>& fixed)
     return links;
 }
 
-ISPF_HOT void ownForce(const linkTable& links, const vec4* x, label i, simd4& f)
+template <class Law>
+ISPF_HOT void ownForce(const Law& law, const linkTable& links, const vec4* x, label i, simd4& f)
 {
     const simd4 xi = x[i].s;
     forNeighbours<among::same>(links, i, [&](pairIndex p, label j) {
         const simd4 e = xi - x[j].s;
         const scalar d = std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
-        f -= links.k[p] * (1 - links.d0[p] / d) * e;
+        f -= law.tension(links.k[p], links.d0[p], d) * e;
     });
 }
 
-// A = k [(1 - g) n n^T + g I], g = 1 - d0/d
-ISPF_INLINE tensor linkBlock(const vector& e, scalar k, scalar d0, bool positive, int nDims)
+// A = (s - t) n n^T + t I
+template <class Law>
+ISPF_INLINE tensor linkBlock(const Law& law, const vector& e, scalar k, scalar d0, bool positive,
+                             int nDims)
 {
-    const scalar d2 = e.squaredNorm(), stretch = 1 - d0 / std::sqrt(d2);
-    const scalar g = positive && stretch < 0 ? 0 : stretch;
-    tensor A = (k * (1 - g) / d2) * e * e.transpose();
-    for (int a = 0; a < nDims; ++a) A(a, a) += k * g;
+    const scalar d2 = e.squaredNorm(), d = std::sqrt(d2), tension = law.tension(k, d0, d);
+    const scalar t = positive && tension < 0 ? 0 : tension;
+    tensor A = ((law.slope(k, d0, d) - t) / d2) * e * e.transpose();
+    for (int a = 0; a < nDims; ++a) A(a, a) += t;
     return A;
 }
 
+template <class Law>
 class springNetwork : public structureModel
 {
 public:
-    springNetwork(const dictionary& dict, const structureReference& ref) : structureModel(ref)
+    springNetwork(const dictionary& dict, const structureReference& ref, const Law& law)
+        : structureModel(ref), law_(law)
     {
         const springLinks all(dict, ref_);
         G_ = all.G;
-        summary_ = "springNetwork, " + all.summary;
+        summary_ = "springNetwork, " + law.description() + all.summary;
         links_ = movingLinks(all, ref_.fixed);
         makePattern();
     }
@@ -104,12 +112,14 @@ private:
         return x[i].xyz() - (links_.image[p] ? ref_.images[links_.image[p] - 1](xj) : xj);
     }
 
+    const Law law_;
     linkTable links_;
     blockMatrix3 pattern_;  // without values
     word summary_;
 };
 
-void springNetwork::makePattern()
+template <class Law>
+void springNetwork<Law>::makePattern()
 {
     links_.slot.resize(links_.index.size());
     pattern_.rowStart.push_back(0);
@@ -130,7 +140,8 @@ void springNetwork::makePattern()
     }
 }
 
-void springNetwork::force(const List<vec4>& x, List<vec4>& f) const
+template <class Law>
+void springNetwork<Law>::force(const List<vec4>& x, List<vec4>& f) const
 {
     f.resize(std::max<size_t>(f.size(), size_t(n())));
     parallelFor(
@@ -139,47 +150,50 @@ void springNetwork::force(const List<vec4>& x, List<vec4>& f) const
             for (label i = begin; i < end; ++i)
             {
                 simd4 sum = {};
-                ownForce(links_, x.data(), i, sum);
+                ownForce(law_, links_, x.data(), i, sum);
                 f[i].s = sum;
                 forNeighbours<among::others>(links_, i, [&](pairIndex p, label) {
                     const vector e = separation(x, i, p);
-                    f[i].s -= vec4::from(links_.k[p] * (1 - links_.d0[p] / e.norm()) * e).s;
+                    f[i].s -= vec4::from(law_.tension(links_.k[p], links_.d0[p], e.norm()) * e).s;
                 });
             }
         },
         256);
 }
 
-scalar springNetwork::energy(const List<vec4>& x) const
+template <class Law>
+scalar springNetwork<Law>::energy(const List<vec4>& x) const
 {
     return parallelSum(n(), [&](label begin, label end) {
         scalar sum = 0;
         for (label i = begin; i < end; ++i)
             forNeighbours<among::all>(links_, i, [&](pairIndex p, label) {
-                const scalar stretch = separation(x, i, p).norm() - links_.d0[p];
-                sum += 0.25 * links_.k[p] * stretch * stretch;
+                sum += 0.5 * law_.energy(links_.k[p], links_.d0[p], separation(x, i, p).norm());
             });
         return sum;
     });
 }
 
-void springNetwork::stress(const List<vec4>& x, List<tensor>& tau) const
+template <class Law>
+void springNetwork<Law>::stress(const List<vec4>& x, List<tensor>& tau) const
 {
     tau.assign(size_t(n()), tensor::Zero());
     forPairs<among::all>(links_, 0, n(), [&](label i, pairIndex p, label) {
         const vector e = separation(x, i, p);
-        const scalar weight = links_.k[p] * (1 - links_.d0[p] / e.norm());
-        tau[i] += weight / (2 * ref_.volume()) * e * e.transpose();
+        const scalar tension = law_.tension(links_.k[p], links_.d0[p], e.norm());
+        tau[i] += tension / (2 * ref_.volume()) * e * e.transpose();
     });
 }
 
-void springNetwork::tangentRow(const List<vec4>& x, bool positive, label i, blockMatrix3& K) const
+template <class Law>
+void springNetwork<Law>::tangentRow(const List<vec4>& x, bool positive, label i,
+                                    blockMatrix3& K) const
 {
     K.diagonal[i].setZero();
     for (label s = K.rowStart[i]; s < K.rowStart[i + 1]; ++s) K.value[s].setZero();
     forNeighbours<among::all>(links_, i, [&](pairIndex p, label) {
         const tensor A =
-            linkBlock(separation(x, i, p), links_.k[p], links_.d0[p], positive, ref_.nDims);
+            linkBlock(law_, separation(x, i, p), links_.k[p], links_.d0[p], positive, ref_.nDims);
         K.diagonal[i] += A;
         tensor& block = K.value[links_.slot[p]];
         if (links_.image[p]) block -= A * ref_.images[links_.image[p] - 1].R;
@@ -187,7 +201,9 @@ void springNetwork::tangentRow(const List<vec4>& x, bool positive, label i, bloc
     });
 }
 
-void springNetwork::assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const
+template <class Law>
+void springNetwork<Law>::assembleTangent(const List<vec4>& x, tangentKind kind,
+                                         blockMatrix3& K) const
 {
     parallelFor(
         n(),
@@ -197,7 +213,8 @@ void springNetwork::assembleTangent(const List<vec4>& x, tangentKind kind, block
         256);
 }
 
-List<label> springNetwork::linkCounts() const
+template <class Law>
+List<label> springNetwork<Law>::linkCounts() const
 {
     List<label> count;
     for (label i = 0; i < n(); ++i) count.push_back(label(rowOf<among::all>(links_, i).size()));
@@ -209,7 +226,9 @@ List<label> springNetwork::linkCounts() const
 std::unique_ptr<structureModel> newSpringNetwork(const dictionary& dict,
                                                  const structureReference& ref)
 {
-    return std::make_unique<springNetwork>(dict, ref);
+    const scalar b = dict.getInRangeOrDefault("stiffening", 0, 100, 0);
+    if (b > 0) return std::make_unique<springNetwork<stiffeningLink>>(dict, ref, stiffeningLink{b});
+    return std::make_unique<springNetwork<linearLink>>(dict, ref, linearLink{});
 }
 
 }  // namespace ispf

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A shear wave that stands in a block of solid with a memory, which repeats itself, with both couplings (theory 5.9)
 #include "caseOnDisk.H"
+#include "core/errorOf.H"
 #include "relative.H"
 
 #include <cmath>
@@ -171,6 +172,15 @@ TEST_CASE("a relaxing solid: steps of a hundred times of relaxation are stable")
         CHECK(std::abs(w.speed()) < 1.01 * start);
         CHECK(w.c->cloud.maxSpeed() < 1.05 * start);
     }
+}
+
+TEST_CASE("a solid with a viscosity is refused by projection, which has no term for it")
+{
+    wave w("monolithic", "Euler", {}, 0);
+    setContent(w.files.path() + "/constant/structureProperties",
+               "structureModel totalLagrangian; material { type neoHookean; G 1; viscosity 1; }");
+    setContent(w.files.path() + "/system/sphSolution", "coupling projection;");
+    CHECK_ERROR(w.read(), "Take coupling monolithic", 1);
 }
 
 TEST_CASE("a relaxing solid: a continued run and one whose step was undone are those without")

@@ -162,7 +162,7 @@ int run(int argc, char** argv)
     if (!args.parse(argc, argv)) return 0;
     args.printHeader();
 
-    const dictionary properties =
+    dictionary properties =
         dictionary::fromFile(args.caseFolder() + "/constant/structureProperties");
     const dictionary schemes =
         dictionary::fromFileIfPresent(args.caseFolder() + "/system/sphSchemes");
@@ -172,6 +172,11 @@ int run(int argc, char** argv)
         springResponse(args.caseFolder(), properties, hByDx);
         return 0;
     }
+    if (properties.found("links") && properties.found("fibres"))
+        info() << "\nThe links without the weights of their fibres: these change what a modulus is "
+                  "named for\n";
+    for (const word key : {"fibres", "fibreWeight", "fibrePower"})
+        if (properties.found("links")) properties.remove(key);
     const word file = args.caseFolder() + "/0/particles.hdf";
     const bool hasBody = std::filesystem::exists(file);
     if (args.found("bodyOnly") && !hasBody)
