@@ -35,7 +35,7 @@ word structureOf(const word& name, const word& entries)
 TEST_CASE("a case reads fibres at points from a file in its folder")
 {
     const word fibres =
-        "fibres { type points; files (\"constant/fibres.csv\"); farthest 5 [mm]; } ";
+        "fibres { type points; files (\"constant/fibres.csv\"); farthest 6 [mm]; } ";
     CHECK(structureOf("fibreFile",
                       "structureModel totalLagrangian; material { type "
                       "HolzapfelGasserOgden; G 1; k1 1; k2 1; " +

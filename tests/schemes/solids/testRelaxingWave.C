@@ -4,6 +4,7 @@
 #include "core/errorOf.H"
 #include "relative.H"
 
+#include <array>
 #include <cmath>
 #include <doctest/doctest.h>
 
@@ -13,7 +14,7 @@ namespace
 {
 
 constexpr scalar dx = 1e-3, G = 10, rho = 1000;
-constexpr int nx = 16, ny = 6;
+constexpr int nx = 12, ny = 6;
 const scalar k = 2 * M_PI / (nx * dx), period = 2 * M_PI / (k * std::sqrt(G / rho));
 
 struct branch
@@ -24,7 +25,8 @@ struct branch
 // The wave in memory
 struct wave
 {
-    caseOnDisk files{"relaxingWave"};
+    inline static int number = 0;
+    caseOnDisk files{"relaxingWave" + std::to_string(++number)};  // several live side by side
     capturedLog log;
     std::unique_ptr<Time> time;
     std::unique_ptr<fsiCase> c;
@@ -43,8 +45,7 @@ struct wave
         files.properties = "rho " + str(rho) + "; mu 0;";
         files.schemes = "ddtScheme " + ddt + ";";
         files.solution =
-            "coupling " + coupling +
-            "; monolithic { tolerance 1e-8; absTolerance 1e-10; newton { maxIter 10; } }";
+            "coupling " + coupling + "; monolithic { tolerance 1e-6; absTolerance 1e-8; }";
         if (coupling == "projection") files.solution = "coupling projection;";
         files.write();
         word moduli, times;
@@ -88,7 +89,8 @@ struct wave
     List<scalar> memory() const { return c->cloud.state.values().at("solidMemory"); }
 };
 
-// d'' = - K d - sum q, q' = K_b d' - q/time by Runge and Kutta's method; returns d' and the energy lost
+// d'' = - K d - sum q, q' = K_b d' - q/time, Phi' = q d' - Phi/time by Runge and Kutta's method; returns d' and the energy
+// lost, the integral of sum Phi/time
 struct exactWave
 {
     scalar speed, lost;
@@ -100,17 +102,18 @@ struct exactWave
         scalar sum = 0;
         for (const branch& b : branches) sum += b.g;
         const auto slope = [&](const state& y) -> state {
-            state s = state::Zero(3 + n);
+            state s = state::Zero(3 + 2 * n);
             s[0] = y[1], s[1] = -K * y[0];
             for (int b = 0; b < n; ++b)
             {
-                const scalar own = Kb * branches[b].g / sum;
-                s[1] -= y[3 + b], s[3 + b] = own * y[1] - y[3 + b] / branches[b].time;
-                s[2] += y[3 + b] * y[3 + b] / (own * branches[b].time);
+                const scalar q = y[3 + 2 * b], Phi = y[4 + 2 * b], time = branches[b].time;
+                s[1] -= q, s[2] += Phi / time;
+                s[3 + 2 * b] = Kb * branches[b].g / sum * y[1] - q / time;
+                s[4 + 2 * b] = q * y[1] - Phi / time;
             }
             return s;
         };
-        state y = state::Zero(3 + n);
+        state y = state::Zero(3 + 2 * n);
         y[1] = start;
         constexpr int steps = 20000;
         const scalar h = end / steps;
@@ -141,21 +144,32 @@ TEST_CASE("a shear wave of a relaxing solid turns and fades as its Prony series 
         CAPTURE(by.ddt);
         const scalar start = 0.02 * dx * k * std::sqrt(G / rho);
         const scalar alone = wave(by.coupling, by.ddt, {}, start).stiffness();
-        wave w(by.coupling, by.ddt, two, start);
-        const scalar both = w.stiffness();
-        CHECK(both == relative(1.8 * alone, 0.05));
-        const int n = by.ddt == "DLN" ? 150 : 600;
         const scalar end = 1.3 * period;
-        w.run(end / n, n);
-        const exactWave exact(alone, both - alone, two, start, end);
         // sin^2 has the mean 1/2 over the block
         const scalar mass = rho * dx * dx * nx * ny / 2;
-        MESSAGE(by.coupling, " ", by.ddt, ": speed ", w.speed() / start, ", exact ",
-                exact.speed / start, "; lost ", -w.booked(energyLedger::viscosity) / mass,
-                ", exact ", exact.lost);
-        CHECK(std::abs(w.speed() - exact.speed) < 0.01 * start);
-        CHECK(-w.booked(energyLedger::viscosity) == relative(mass * exact.lost, 0.02));
-        CHECK(std::abs(energyLedger::sums(*w.c).back()) < 1e-11 * mass * start * start);
+        scalar both = 0;
+        const auto after = [&](int n) -> std::array<scalar, 2> {
+            wave w(by.coupling, by.ddt, two, start);
+            both = w.stiffness();
+            w.run(end / n, n);
+            CHECK(std::abs(energyLedger::sums(*w.c).back()) < 1e-11 * mass * start * start);
+            return {w.speed(), -w.booked(energyLedger::viscosity) / mass};
+        };
+        // backward Euler is of first order: twice as many steps tell where it leads
+        const bool extrapolates = by.coupling == "monolithic" && by.ddt == "Euler";
+        const int n = by.ddt == "DLN" ? 150 : 600;
+        auto [speed, lost] = after(n);
+        if (extrapolates)
+        {
+            const auto [half, lostOfHalf] = after(n / 2);
+            speed = 2 * speed - half, lost = 2 * lost - lostOfHalf;
+        }
+        CHECK(both == relative(1.8 * alone, 0.05));
+        const exactWave exact(alone, both - alone, two, start, end);
+        MESSAGE(by.coupling, " ", by.ddt, ": speed ", speed / start, ", exact ",
+                exact.speed / start, "; lost ", lost / exact.lost, " of the exact loss");
+        CHECK(std::abs(speed - exact.speed) < 0.01 * start);
+        CHECK(lost == relative(exact.lost, 0.02));
     }
 }
 
@@ -168,7 +182,7 @@ TEST_CASE("a relaxing solid: steps of a hundred times of relaxation are stable")
         const scalar dt = period / 100, start = 0.02 * dx * k * std::sqrt(G / rho);
         wave w(by.coupling, by.ddt, {{5, dt / 100}}, start);
         CHECK(w.scheme->limit().dt > dt);
-        w.run(dt, 300);
+        w.run(dt, 80);
         CHECK(std::abs(w.speed()) < 1.01 * start);
         CHECK(w.c->cloud.maxSpeed() < 1.05 * start);
     }
@@ -204,11 +218,13 @@ TEST_CASE("a relaxing solid: a continued run and one whose step was undone are t
         parts.read();
         parts.run(dt, 10);
         equal(whole, parts);
-        // moved by 1.6 dx, and neighbours by 0.6 dx against each other: halved
+        // moved by 1.6 dx, and neighbours by 0.8 dx against each other: halved
         const scalar fast = 1.6 * dx / dt;
         wave halved(by.coupling, by.ddt, two, fast), half(by.coupling, by.ddt, two, fast);
         halved.run(dt, 1), half.run(dt / 2, 2);
-        CHECK(halved.log.count("halved") >= 1);
+        const auto& kept =
+            by.coupling == "projection" ? entries::projectedStep : entries::levelBefore;
+        CHECK(halved.c->cloud.state.get(kept, 0) == relative(dt / 2));
         equal(halved, half);
     }
 }
