@@ -15,6 +15,10 @@ calibrated() { # links status verdict
 calibrated "E 1e4; links radius; radius 2.1;" 0 ": within 0.95 to 1.05"
 calibrated "E 1e4; links radius; radius 1.42;" 1 ": NOT within"
 calibrated "k_e 1e4; links lattice8;" 0 "not judged"
+# E is the modulus at rest, without what is added along fibres
+tissue="E 1e4; links radius; radius 2.1; stiffening 5; fibreWeight 3; fibres { type uniform; directions ((1 0 0)); }"
+calibrated "$tissue" 0 ": within 0.95 to 1.05"
+grep -q "without the weights of their fibres" log && grep -q "stiffening 5" log || fail "fibres: $(head -n 20 log)"
 
 # -response: the modulus of 18 springs is 3 k/dx, that of a slab of three layers 5/6 of it; hByDx is that of the case
 mkdir -p response/system response/constant; cd response || exit 1
