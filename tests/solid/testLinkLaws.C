@@ -212,6 +212,12 @@ TEST_CASE("links along fibres: stretch along and across them is the affine sum o
     const scalar ofLattice = youngsModulus(*plainPower, vector(1, 0, 0)) / 3e6;
     MESSAGE("18 links along a fibre: ", ofLattice);
     CHECK(ofLattice == relative(2.25, 1e-6));
+    // the factor that the log tells is that of the energy of the whole body
+    const auto plain = springs(ref, links18(ref));
+    const List<vec4> longer = affine(ref, stretch(vector(1, 0, 0), 1 + 1e-6, 3));
+    const word log = plainPower->description(), before = "along the first family ";
+    const scalar told = std::stod(log.substr(log.find(before) + before.size()));
+    CHECK(told == relative(plainPower->energy(longer) / plain->energy(longer), 1e-3));
     // two families across each other in the plane: alike along both
     const structureReference sheet = latticeBlock(9, 9, 0);
     const auto crossed = springs(sheet,
