@@ -66,6 +66,12 @@ prepared dx0.67-B-trapezoid "1500000 0.00067 0.01 10.476"
 prepared dx0.5-B-trapezoid "1500000 0.0005 0.0075 10.476" -dx 0.5
 prepared dx0.4-B-trapezoid "1500000 0.0004 0.006 10.476" -dx 0.4
 prepared dx0.67-B-trapezoid-paper "30 0.00067 0.002 10.476" -paper
+# without a bath nothing of it is left, and the wall's outer side carries a pressure
+prepared dx0.67-B-trapezoid-bare "1500000 0.00067 0.01 10.476" -bare
+bare=$case/run/dx0.67-B-trapezoid-bare
+grep -rq "buffer  *{\|^outside" "$bare/system/particleDict" "$bare/constant/boundary.full" && fail "-bare leaves a bath"
+[ "$("$bin/ispfDictionary" "$bare/constant/structureProperties" -entry outside.pressure -SI)" = 0 ] || fail "-bare: nothing is outside"
+again -paper -bare -prepare && fail "-paper -bare is accepted"
 (cd "$case" && sed -i 's/^E .*/E 2 [MPa];/' constant/structureProperties && sed -i 's/^dx .*/dx 0.8 [mm];/' system/particleDict &&
     sed -i 's/^deltaT .*/deltaT 8e-3;/; s/^endTime .*/endTime 3;/' system/controlDict)
 prepared dx0.8-B-trapezoid "2000000 0.0008 0.008 3"
