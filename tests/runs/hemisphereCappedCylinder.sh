@@ -69,9 +69,13 @@ prepared dx0.67-B-trapezoid-paper "30 0.00067 0.002 10.476" -paper
 # without a bath nothing of it is left, and the wall's outer side carries a pressure
 prepared dx0.67-B-trapezoid-bare "1500000 0.00067 0.01 10.476" -bare
 bare=$case/run/dx0.67-B-trapezoid-bare
-grep -rq "buffer  *{\|^outside" "$bare/system/particleDict" "$bare/constant/boundary.full" && fail "-bare leaves a bath"
+grep -q "buffer  *{\|^outside" "$bare/system/particleDict" "$bare/constant/boundary.full" && fail "-bare leaves a bath"
 [ "$("$bin/ispfDictionary" "$bare/constant/structureProperties" -entry outside.pressure -SI)" = 0 ] || fail "-bare: nothing is outside"
 again -paper -bare -prepare && fail "-paper -bare is accepted"
+printf 'zone volume particles\nwall 1e-6 3957 -0.01 3\nflange 2e-7 546 0.05 3\nchamber 3e-6 9983 0 3\n' > "$bare/log.generateParticles"
+ISPF_DIR=$root ISPF_BIN=$bin "$case/validation/compare" "$bare" > /dev/null 2> "$scratch/out" || fail "compare -bare: $(cat "$scratch/out")"
+grep -q '^particlesFluid,39932$' "$bare/comparison/quantities.csv" || fail "compare -bare counts no particles"
+grep ',$' "$bare/comparison/quantities.csv" && fail "compare -bare: a quantity without a value"
 (cd "$case" && sed -i 's/^E .*/E 2 [MPa];/' constant/structureProperties && sed -i 's/^dx .*/dx 0.8 [mm];/' system/particleDict &&
     sed -i 's/^deltaT .*/deltaT 8e-3;/; s/^endTime .*/endTime 3;/' system/controlDict)
 prepared dx0.8-B-trapezoid "2000000 0.0008 0.008 3"

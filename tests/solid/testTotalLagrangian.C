@@ -22,12 +22,6 @@ std::unique_ptr<structureModel> lagrangian(const structureReference& ref,
                                ref);
 }
 
-scalar leastEigenvalue(const Eigen::MatrixXd& A)
-{
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> s(A, Eigen::EigenvaluesOnly);
-    return s.eigenvalues().minCoeff() / s.eigenvalues().maxCoeff();
-}
-
 // Neighbours on a lattice move against each other: no gradient sees it
 List<vec4> alternating(const structureReference& ref, scalar amplitude)
 {

@@ -43,9 +43,7 @@ public:
             const word content = trimmed(line);
             if (++line_ <= format_.nHeaderLine) readHeader(line);
             if (line_ <= format_.nHeaderLine || content.empty() || content[0] == '#') continue;
-            if (rows.empty()) chooseHeader();
-            if (rows.empty())
-                for (const csvColumn& c : columns_) places.push_back(place(c));
+            if (rows.empty()) chooseColumns(places);
             const List<word> cells = split(line);
             csvRow& row = rows.emplace_back();
             row.where = here();
@@ -97,6 +95,12 @@ private:
             h.units.push_back(hasUnit ? cell.substr(open + 1, close - open - 1) : "");
         }
         headers_.push_back(h);
+    }
+
+    void chooseColumns(List<size_t>& places)
+    {
+        chooseHeader();
+        for (const csvColumn& c : columns_) places.push_back(place(c));
     }
 
     // Chooses the last header line that has the wanted columns; one behind a # only if no other has them

@@ -59,7 +59,7 @@ List<fibrePoints::neighbour> fibrePoints::nearest(const vector& x) const
     return best;
 }
 
-// (5.38)
+// (5.39)
 vector fibrePoints::at(const vector& x) const
 {
     const List<neighbour> around = nearest(x);

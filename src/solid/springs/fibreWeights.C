@@ -57,8 +57,7 @@ word weighAlongFibres(const dictionary& dict, const structureReference& ref,
     if (most < noWeight)
         dict.fail("fibres", "No link has a part along the fibres: they have no effect");
     return "fibres: links up to " + str(1 + most, 4) +
-           " times as stiff, the body stretched along the first family " + str(after / before, 4) +
-           " times";
+           " times as stiff, the body along the first family " + str(after / before, 4) + " times";
 }
 
 }  // namespace ispf

@@ -173,10 +173,11 @@ int run(int argc, char** argv)
         return 0;
     }
     if (properties.found("links") && properties.found("fibres"))
-        info() << "\nThe links without the weights of their fibres: these change what a modulus is "
-                  "named for\n";
-    for (const word key : {"fibres", "fibreWeight", "fibrePower"})
-        if (properties.found("links")) properties.remove(key);
+    {
+        info() << "\nE is the modulus of the links without the weights of their fibres: these are "
+                  "measured\n";
+        for (const word key : {"fibres", "fibreWeight", "fibrePower"}) properties.remove(key);
+    }
     const word file = args.caseFolder() + "/0/particles.hdf";
     const bool hasBody = std::filesystem::exists(file);
     if (args.found("bodyOnly") && !hasBody)
