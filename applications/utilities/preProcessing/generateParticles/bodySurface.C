@@ -36,18 +36,20 @@ public:
                << s.size() << " facets" << std::endl;
     }
 
-    void run()
+    List<word> run()
     {
         if (s_.empty()) throw fatalError(name_ + " has no facet");
         checkExtent();
         const repairReport repaired = repair(s_, {settings_.weld, settings_.closeHoles});
         if (const word done = repaired.describe(); !done.empty())
             info() << "    repaired    " << done << std::endl;
-        cap();
+        const List<word> caps = cap();
         checkClosed();
         checkCrossings();
         checkScale();
-        reportFeatures();
+        if (!settings_.zone->found("thickness"))
+            reportFeatures();  // else that of the lumen's zone tells
+        return caps;
     }
 
 private:
@@ -69,10 +71,11 @@ private:
                              " across. Are dx and the unit right?");
     }
 
-    void cap()
+    List<word> cap()
     {
         const dictionary& zone = *settings_.zone;
-        if (!zone.found("capping")) return;
+        const bool asked = zone.found("capping");
+        if (!asked && !(zone.found("thickness") && !flat_ && !boundaryLoops(s_).empty())) return {};
         if (flat_) zone.fail("capping", "Bodies in two dimensions have no ends to cap");
         List<capRequest> requests;
         scalar tolerance = 0.5 * dx_;
@@ -87,14 +90,19 @@ private:
                           "Name the caps, each with a point near its end, as in 'inlet { "
                           "near (0 0 0); }', or say 'capping automatic;'");
         }
-        else zone.choose("capping", {"automatic"});
+        else if (asked) zone.choose("capping", {"automatic"});
+        List<word> names;
         for (const auto& [name, loop] : capEnds(s_, requests, tolerance, dx_))
+        {
+            names.push_back(name);
             line("capped", name + " " + loop.describe(dx_) + ", normal " +
                                place(loop.normal(), 1e-9) +
                                (loop.offPlane > 1e-9 * dx_
                                     ? ", rim moved by up to " + inSpacings(loop.offPlane, dx_)
                                     : word()));
+        }
         orientOutward(s_);
+        return names;
     }
 
     void checkClosed() const
@@ -213,9 +221,10 @@ private:
 
 }  // namespace
 
-void prepareBodySurface(triSurface& surface, const word& zone, const bodySurfaceSettings& settings)
+List<word> prepareBodySurface(triSurface& surface, const word& zone,
+                              const bodySurfaceSettings& settings)
 {
-    bodyCheck(surface, zone, settings).run();
+    return bodyCheck(surface, zone, settings).run();
 }
 
 void stretchToPrism(triSurface& surface, const word& file, scalar dx)

@@ -3,6 +3,7 @@
 
 #include "bodySurface.H"
 #include "fileNames.H"
+#include "lumenWall.H"
 #include "patchDictionary.H"
 #include "shapes.H"
 #include "siteFile.H"
@@ -265,7 +266,15 @@ List<body> particleDict::cadBodies(const word& zone, const dictionary& dict)
             if (wanted(v)) bodies.push_back(cadBody(zone, dict, cad, v.faces, v.volume));
         return !bodies.empty();
     };
-    if (take(named) || take(touched)) return bodies;
+    if (take(named) || take(touched))
+    {
+        if (bodies.size() > 1 && dict.found("thickness"))
+            dict.fail("thickness",
+                      "The wall of one lumen is made, but zone " + zone + " takes " +
+                          std::to_string(bodies.size()) + " volumes of " + cad.path +
+                          ". Choose one by colour, faces, group or box, or unite them");
+        return bodies;
+    }
     List<label> faces;
     for (const cadFace& f : cad.faces)
         if (!selector.any() || selector.matches(f)) faces.push_back(f.tag);
@@ -290,11 +299,21 @@ void particleDict::cutHalfWay(const word& file, triSurface& s) const
     for (vector& x : s.nodes) x[2] -= 0.5 * (box.min[2] + box.max[2]);
 }
 
+// Patches that fluid passes through
+std::set<word> particleDict::patchesWithFlow() const
+{
+    std::set<word> names;
+    for (const patchInfo& p : patches_)
+        if (p.type != patchInfo::kind::wall) names.insert(p.name);
+    return names;
+}
+
 body particleDict::cadBody(const word& zone, const dictionary& dict, const cadModel& cad,
                            const List<label>& faces, scalar volume) const
 {
     body b{-1, {}, volume};
-    for (const label tag : faces) b.surface.append(cad.face(tag).surface);
+    lumenWall wall(dict, patchesWithFlow(), dx, nDims, cad_.meshSize);
+    for (const label tag : faces) b.surface.append(wall.faceSurface(cad.face(tag)));
     if (nDims == 2) cutHalfWay(cad.path, b.surface);
     if (cad.givenFacets) sortByPlace(b.surface);
     bodySurfaceSettings settings = {
@@ -302,8 +321,14 @@ body particleDict::cadBody(const word& zone, const dictionary& dict, const cadMo
     scalar meshed = 0;
     try
     {
-        prepareBodySurface(b.surface, zone, settings);
+        const List<word> caps = prepareBodySurface(b.surface, zone, settings);
         meshed = b.surface.volume();
+        if (wall.asked())
+        {
+            nameByPlane(b.surface);
+            b.surface = wall.around(b.surface, caps);
+            b.volume = 0;
+        }
         if (nDims == 2) stretchToPrism(b.surface, cad.path, dx);
     }
     catch (const fatalError& error)
@@ -335,6 +360,11 @@ void particleDict::addZone(const word& name, List<body>& bodies)
     checkName(dict_.subDict("zones"), name);
     if (dict.found("file") == dict.found("shape"))
         dict.fail("phase", "Zone " + name + " needs either a file or a shape");
+    if (dict.found("shape") && dict.found("thickness"))
+        dict.fail("thickness",
+                  "Zone " + name +
+                      " has a shape and so no lumen: 'thickness' makes the wall around "
+                      "the lumen of a file. Use 'shape annulus', or give the file");
     List<body> own = dict.found("file") ? cadBodies(name, dict) : List<body>{shapeBody(dict)};
     const zoneInfo zone = readZone(name, dict);
     const bool rigid = zone.phase == phaseType::rigid;
