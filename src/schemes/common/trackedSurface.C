@@ -4,7 +4,6 @@
 #include "disjointSets.H"
 #include "fileNames.H"
 #include "followWeights.H"
-#include "pointGrid.H"
 #include "surfaceRefinement.H"
 #include "surfaceTopology.H"
 
@@ -22,6 +21,8 @@ namespace
 
 // Longest edge [dx]: a mesh as coarse as the flat CAD faces would cut off the bulges of the solid
 constexpr scalar longestEdge = 1.5;
+// Reach of the particles that a vertex follows; farthest particle that a vertex on a sharp edge follows [dx]
+constexpr scalar followed = 3, farthest = 12;
 
 using plane = std::pair<vector, vector>;  // point, outward unit normal
 using halfEdges = List<std::array<label, 2>>;
@@ -97,10 +98,12 @@ trackedSurface::trackedSurface(const word& name, const fsiCase& c, const fileLoc
     update(c.cloud.x);
 }
 
+// An edge too sharp to hold particles, as the root of a leaflet, moves with the nearest particle: its vertices have few
+// particles or none near them
 void trackedSurface::attach(const fsiCase& c, const fileLocation& where)
 {
     const List<vec4>& x0 = c.cloud.vectors.at("x0");
-    const scalar reach = 3 * c.cloud.dx;
+    const scalar reach = followed * c.cloud.dx;
     pointGrid solids(reach);
     for (label j = 0; j < c.cloud.nSolid(); ++j) solids.add(x0[j].xyz());
     const label nv = label(rest_.nodes.size());
@@ -115,23 +118,44 @@ void trackedSurface::attach(const fsiCase& c, const fileLocation& where)
                 solids.within(x, reach, [&](label j, scalar) { near[v].push_back(j); });
                 std::sort(near[v].begin(), near[v].end());
                 if (near[v].size() < 4)
-                    throw fatalError("Surface " + name_ + ": vertex (" + str(x[0]) + " " +
-                                         str(x[1]) + " " + str(x[2]) +
-                                         ") has no solid particles near it to follow",
-                                     where);
+                    near[v] = {nearestSolid(solids, x, farthest * c.cloud.dx, where)};
                 List<vector> r;
                 for (const label j : near[v]) r.push_back((solids[j] - x) / reach);
-                weights[v] = followWeights(r);
+                weights[v] = r.size() == 1 ? List<scalar>{1} : followWeights(r);
             }
         },
         16);
     start_.push_back(0);
+    scalar way = 0;
     for (label v = 0; v < nv; ++v)
     {
+        if (near[v].size() == 1)
+        {
+            sharp_.emplace_back(v, rest_.nodes[v] - solids[near[v][0]]);
+            way = std::max(way, sharp_.back().second.norm());
+        }
         source_.insert(source_.end(), near[v].begin(), near[v].end());
         weight_.insert(weight_.end(), weights[v].begin(), weights[v].end());
         start_.push_back(label(source_.size()));
     }
+    if (!sharp_.empty())
+        info() << "Surface " << name_ << ": " << sharp_.size()
+               << " vertices on sharp edges follow the nearest solid particle, up to "
+               << str(way / c.cloud.dx, 3) << " dx away" << std::endl;
+}
+
+label trackedSurface::nearestSolid(const pointGrid& solids, const vector& x, scalar radius,
+                                   const fileLocation& where) const
+{
+    const label j = solids.nearestIndex(x, radius);
+    if (j < 0)
+        throw fatalError("Surface " + name_ + ": the vertex (" + str(x[0]) + " " + str(x[1]) + " " +
+                             str(x[2]) + ") is more than " + str(radius, 3) +
+                             " m = " + str(farthest) +
+                             " dx away from every solid particle, so it has none to follow. Is "
+                             "the surface one of this case? generateParticles makes it anew",
+                         where);
+    return j;
 }
 
 List<trackedSurface::halfEdge> trackedSurface::rimEdges(const boundary& walls) const
@@ -194,6 +218,8 @@ void trackedSurface::update(const List<vec4>& x)
             now_.nodes[v] = vector(sum[0], sum[1], height_ > 0 ? rest_.nodes[v][2] : sum[2]);
         }
     });
+    for (const auto& [v, offset] : sharp_)
+        for (int d = 0; d < (height_ > 0 ? 2 : 3); ++d) now_.nodes[v][d] += offset[d];
 }
 
 scalar trackedSurface::volume(const triSurface& s) const
