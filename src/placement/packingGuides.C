@@ -11,6 +11,7 @@ namespace
 
 constexpr scalar longestMove = 0.15;  // in dx, per move
 constexpr scalar longestDrift = 0.5;  // in dx, of particles outside the zones, whose edges are free
+constexpr scalar flush = 0.2;  // cosine between the normals of an open face and a wall around it
 
 }  // namespace
 
@@ -71,13 +72,17 @@ void packingGuides::keepOffWall(packedParticle& p) const
         p.x -= (q.depth + 0.45 * dx) * q.normal;
 }
 
+// A wall in which the face lies flush does not lead on beside the strip: its plane would cover the face
 label packingGuides::wallBeside(const vector& x, label openPatch) const
 {
+    const vector along = outside_.footOn(openPatch, x, 2 * outside_.stripWidth()).normal;
     for (size_t w = 0; w < geometry_.patches().size(); ++w)
     {
         if (geometry_.patches()[w].type != patchInfo::kind::wall) continue;
         const exteriorPoint q = outside_.footOn(label(w), x, 5 * geometry_.dx());
-        if (q.type == exteriorPoint::kind::nothing || q.depth < -1.5 * geometry_.dx()) continue;
+        if (q.type == exteriorPoint::kind::nothing || q.depth < -1.5 * geometry_.dx() ||
+            q.normal.dot(along) > flush)
+            continue;
         // an oblique face extends no farther than this behind the end of the wall
         if (q.depth > outside_.stripWidth() + 0.5 * geometry_.dx())
             throw fatalError(

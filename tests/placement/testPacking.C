@@ -176,6 +176,20 @@ TEST_CASE("a box filled body-fitted is even as well")
     CHECK(k.most < 1.02);
 }
 
+TEST_CASE("openings flush in a curved wall are packed as evenly as the rest")
+{
+    for (const scalar halfAngle : {0.24, 0.7})
+    {
+        const packedScene scene = ballWithOpenings(0.01, halfAngle < 0.5 ? 11 : 2, halfAngle, 1e-3);
+        const zoneQuality q = packingQuality(scene.geometry, scene.placed, scene.support)[0];
+        CHECK(q.nTooClose == 0);
+        CHECK(q.minDistance > 0.7);
+        CHECK(q.least > 1 - 0.02);
+        CHECK(q.most < 1 + 0.02);
+        CHECK(std::abs(q.mean - 1) < 3e-3);
+    }
+}
+
 TEST_CASE("layers are counted from particles alone")
 {
     const auto range = [](const List<vector>& x, int nDims) {
