@@ -36,7 +36,7 @@ public:
     {
         triSurface wall = walled();
         wall.flip();
-        const triSurface body = prolonged();
+        const triSurface body = prolonged([&](const vesselOpening& o) { return lengthBeyond(o); });
         checkGap(body);
         triSurface outer = offsetSurface(surfaceSearch(body), set_.thickness,
                                          0.5 * std::min(set_.spacing, set_.thickness), set_.flat);
@@ -49,6 +49,30 @@ public:
         wall.patch.assign(wall.patch.size(), 0);
         return {std::move(wall), std::move(openings_)};
     }
+
+    // The lumen with its ends moved along the vessel; the patches of openings keep their names
+    triSurface prolonged(const std::function<scalar(const vesselOpening&)>& length) const
+    {
+        triSurface all = walled();
+        all.patchNames = {""};
+        all.patch.assign(all.patch.size(), 0);
+        for (const vesselOpening& o : openings_)
+        {
+            const vector shift = length(o) * o.along;
+            const label lid = all.addPatch(o.patch);
+            for (const label t : o.facets)
+                all.add(lumen_.corner(t, 0) + shift, lumen_.corner(t, 1) + shift,
+                        lumen_.corner(t, 2) + shift, lid);
+            forRim(o, [&](label a, label b, label) {
+                const vector &p = lumen_.nodes[a], &q = lumen_.nodes[b];
+                all.add(q, p, p + shift, 0), all.add(q, p + shift, q + shift, 0);
+            });
+        }
+        all.weld(1e-9 * set_.dx);
+        return all;
+    }
+
+    const List<vesselOpening>& openings() const { return openings_; }
 
 private:
     bool isPrismEnd(label t) const { return set_.flat && std::abs(lumen_.normal(t)[2]) > 0.9; }
@@ -106,7 +130,7 @@ private:
 
     word name(const vesselOpening& o) const
     {
-        return "The opening " + o.patch + " at " + place(o.centre, 1e-9 * set_.dx) + " m";
+        return "The opening " + o.patch + " at " + place(o.centre, 1e-6 * set_.dx) + " m";
     }
 
     // Along the wall: least squares of its component along the normals of the wall's facets at the opening
@@ -146,10 +170,10 @@ private:
     void checkGap(const triSurface& prolonged) const
     {
         const featureSize gap =
-            smallestFeatures(prolonged.patchSurface("wall"), set_.dx, set_.flat).gap;
+            smallestFeatures(prolonged.patchSurface(""), set_.dx, set_.flat).gap;
         if (gap.size < 2 * set_.thickness)
             throw fatalError("A wall of " + str(set_.thickness, 3) + " m is too thick: at " +
-                             place(gap.at, 1e-9 * set_.dx) +
+                             place(gap.at, 1e-6 * set_.dx) +
                              " m the lumen turns back, or another part of it is near, " +
                              str(gap.size, 3) +
                              " m away, and the walls of both sides would meet. Make the wall "
@@ -160,27 +184,6 @@ private:
     scalar lengthBeyond(const vesselOpening& o) const
     {
         return set_.thickness * (1 + 1 / o.along.dot(o.normal)) + 2 * set_.spacing;
-    }
-
-    // The lumen with its ends moved outwards, for distances near the openings
-    triSurface prolonged() const
-    {
-        triSurface all = walled();
-        all.patchNames = {"wall", "lid"};
-        all.patch.assign(all.patch.size(), 0);
-        for (const vesselOpening& o : openings_)
-        {
-            const vector shift = lengthBeyond(o) * o.along;
-            for (const label t : o.facets)
-                all.add(lumen_.corner(t, 0) + shift, lumen_.corner(t, 1) + shift,
-                        lumen_.corner(t, 2) + shift, 1);
-            forRim(o, [&](label a, label b, label) {
-                const vector &p = lumen_.nodes[a], &q = lumen_.nodes[b];
-                all.add(q, p, p + shift, 0), all.add(q, p + shift, q + shift, 0);
-            });
-        }
-        all.weld(1e-9 * set_.dx);
-        return all;
     }
 
     // Removes the part of the outer surface beyond the opening's plane that surrounds the prolonged end
@@ -204,7 +207,7 @@ private:
         for (label t = 0; t < rest.size(); ++t)
             if (part[t] == end && level(rest.centre(t) - o.centre).norm() > reach)
                 throw fatalError(name(o) + " has another part of the wall beyond its plane, at " +
-                                 place(rest.centre(t), 1e-9 * set_.dx) +
+                                 place(rest.centre(t), 1e-6 * set_.dx) +
                                  " m: the wall cannot end there. Make the vessel longer there, or "
                                  "the wall thinner");
         outer = clipped(outer, inside, tolerance);
@@ -277,7 +280,11 @@ vesselWall makeVesselWall(const triSurface& lumen,
                           const std::function<bool(const word&)>& isOpening,
                           const vesselWallSettings& settings)
 {
-    return wallMaker(lumen, isOpening, settings).run();
+    wallMaker maker(lumen, isOpening, settings);
+    if (settings.beyond == 0) return maker.run();
+    const triSurface longer = maker.prolonged(
+        [&](const vesselOpening& o) { return settings.beyond / o.along.dot(o.normal); });
+    return {wallMaker(longer, isOpening, settings).run().surface, maker.openings()};
 }
 
 }  // namespace ispf

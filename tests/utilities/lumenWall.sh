@@ -64,6 +64,18 @@ noneWhere "r < 5 || r > 7 || z < 0 || z > 20" "a straight tube"
 case_ straight 1e-3 3e-3 "openings (in out);"
 accepted "listed openings" "^wall .* 3\$"
 volumeIs wall 2.450442e-6
+# an open face beside a solid: the wall reaches beyond it, and the solver takes it
+case_ straight 1e-3 3e-3 "beyond 3e-3;"
+accepted "beyond the openings" "open at out \(0 0 0.02\) m, 0.003 m beyond them" "^wall .* 3\$"
+volumeIs wall 3.185575e-6
+noneWhere "r < 5 || r > 8 || z < -3 || z > 23" "a wall beyond the openings"
+echo "in { type open; p 20; } out { type open; p 0; }" > constant/boundary
+echo "coupling monolithic;" > system/sphSolution; : > system/sphSchemes
+echo "rho 1000; mu 4e-3;" > constant/physicalProperties
+echo "structureModel springNetwork; E 1e5; links radius; radius 2.1;" > constant/structureProperties
+echo "startTime 0; endTime 2e-3; deltaT 5e-4; writeControl timeStep; writeInterval 4;" > system/controlDict
+{ solve && [ -f 0.002/particles.hdf ]; } || fail "the solver with a wall beyond the openings: $(tail -n 8 log)"
+rm -rf 0.*
 case_ straight 1e-3 2e-3 "openings (in);" "" "patches { in { group in; } }"
 echo "in { type open; p 0; }" > constant/boundary
 accepted "one opening: a wall over the other end" "open at in \(0 0 0\) m$"

@@ -25,6 +25,7 @@ lumenWall::lumenWall(const dictionary& zone, const std::set<word>& openPatches, 
 {
     if (!zone.found("thickness")) return;
     thickness_ = zone.getInRange("thickness", dx, thickest * dx, dims::length);
+    beyond_ = zone.getInRangeOrDefault("beyond", 0, thickest * dx, 0, dims::length);
     if (const word phase = zone.get<word>("phase"); phase != "solid" && phase != "clamped")
         zone.fail("thickness",
                   "An entry 'thickness' makes the wall of a vessel: its zone must have "
@@ -67,11 +68,12 @@ triSurface lumenWall::around(const triSurface& lumen, const List<word>& caps) co
     {
         const vesselWall wall =
             makeVesselWall(lumen, [&](const word& patch) { return openings.count(patch) > 0; },
-                           {thickness_, surfaceSize_, dx_, nDims_ == 2});
+                           {thickness_, surfaceSize_, dx_, nDims_ == 2, beyond_});
         info() << "    wall        " << str(thickness_, 3) << " m = " << str(thickness_ / dx_, 3)
                << " dx thick around the lumen, " << wall.surface.size() << " facets";
         for (const vesselOpening& o : wall.openings)
-            info() << ", open at " << o.patch << " " << place(o.centre, 1e-9 * dx_) << " m";
+            info() << ", open at " << o.patch << " " << place(o.centre, 1e-6 * dx_) << " m";
+        if (beyond_ > 0) info() << ", " << str(beyond_, 3) << " m beyond them";
         info() << std::endl;
         return wall.surface;
     }
