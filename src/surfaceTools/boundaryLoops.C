@@ -57,7 +57,7 @@ scalar boundaryLoop::width() const
 
 word boundaryLoop::describe(scalar dx) const
 {
-    return "at " + place(centre, 1e-9 * dx) + " m, " + str(size, 3) + " m = " + str(size / dx, 3) +
+    return "at " + place(centre, 1e-6 * dx) + " m, " + str(size, 3) + " m = " + str(size / dx, 3) +
            " dx across, " + std::to_string(nodes.size()) + " edges";
 }
 

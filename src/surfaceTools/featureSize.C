@@ -36,6 +36,35 @@ void take(featureSize& best, const featureSize& other)
     if (other.size < best.size) best = other;
 }
 
+// The smallest size that is not exceeded within the radius around it, on the same side.  Single places towards a sharp
+// edge, or on a flaw of the mesh, may be as thin as rounding
+featureSize sustained(const List<featureSize>& sizes, const surfaceSearch& samples, scalar radius)
+{
+    constexpr scalar sameSide = 0.7;  // cosine
+    const triSurface& s = samples.surface();
+    List<label> order;
+    for (label t = 0; t < s.size(); ++t)
+        if (std::isfinite(sizes[t].size)) order.push_back(t);
+    std::sort(order.begin(), order.end(), [&](label a, label b) {
+        return std::make_pair(sizes[a].size, a) < std::make_pair(sizes[b].size, b);
+    });
+    featureSize best;
+    for (const label t : order)
+    {
+        if (sizes[t].size >= best.size) break;
+        featureSize here = sizes[t];
+        boundBox around;
+        around.add(vector(s.centre(t) - vector::Constant(radius)));
+        around.add(vector(s.centre(t) + vector::Constant(radius)));
+        for (const label u : samples.inBox(around))
+            if (std::isfinite(sizes[u].size) && s.normal(u).dot(s.normal(t)) > sameSide &&
+                (s.centre(u) - s.centre(t)).norm() <= radius)
+                here.size = std::max(here.size, sizes[u].size);
+        take(best, here);
+    }
+    return best;
+}
+
 }  // namespace
 
 featureSizes smallestFeatures(const triSurface& surface, scalar spacing, bool flat)
@@ -44,26 +73,18 @@ featureSizes smallestFeatures(const triSurface& surface, scalar spacing, bool fl
     triSurface samples = surface;
     const scalar reach = surface.bounds().diagonal(), off = 1e-9 * reach;
     refine(samples, 1.5 * std::max(spacing, std::sqrt(surface.area() / mostPoints)));
-    constexpr label block = 1024;
-    const label nBlocks = (samples.size() + block - 1) / block;
-    List<featureSizes> perBlock(nBlocks);
-    parallelFor(
-        nBlocks,
-        [&](label begin, label end) {
-            for (label i = begin; i < end; ++i)
-                for (label t = i * block; t < std::min(samples.size(), (i + 1) * block); ++t)
-                {
-                    const vector n = samples.normal(t), x = samples.centre(t);
-                    if (n.squaredNorm() == 0 || (flat && std::abs(n[2]) > 0.9)) continue;
-                    take(perBlock[i].thickness, opposite(search, x, -n, reach, off));
-                    take(perBlock[i].gap, opposite(search, x, n, reach, off));
-                }
-        },
-        1);
-    featureSizes smallest;
-    for (const featureSizes& f : perBlock)
-        take(smallest.thickness, f.thickness), take(smallest.gap, f.gap);
-    return smallest;
+    List<featureSize> thickness(samples.size()), gap(samples.size());
+    parallelFor(samples.size(), [&](label begin, label end) {
+        for (label t = begin; t < end; ++t)
+        {
+            const vector n = samples.normal(t), x = samples.centre(t);
+            if (n.squaredNorm() == 0 || (flat && std::abs(n[2]) > 0.9)) continue;
+            thickness[t] = opposite(search, x, -n, reach, off);
+            gap[t] = opposite(search, x, n, reach, off);
+        }
+    });
+    const surfaceSearch places(std::move(samples));
+    return {sustained(thickness, places, 0.5 * spacing), sustained(gap, places, 0.5 * spacing)};
 }
 
 }  // namespace ispf

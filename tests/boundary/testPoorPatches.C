@@ -54,6 +54,12 @@ TEST_CASE("an unknown type or word lists the valid ones")
     CHECK_ERROR(c.with("x0 { type symmetryPlane; point (0 0 0);\n normal (-1 0 0); colour red; }"),
                 "colour", 2);
     CHECK_ERROR(c.with("x0 { type symmetryPlane; point (0 0 0); }"), "normal", 1);
+    // those of other types are not among the valid ones
+    CHECK_ERROR(c.with("base { type wall; representation mirror; surface plane; point (0 0 0); "
+                       "normal (0 0 -1); pressureDrop 1; }"),
+                "Valid entries here are: clamps motion normal point representation rotation slip "
+                "surface twoSided type velocity\n",
+                1);
     CHECK_ERROR(c.with("x0 { type symmetryPlane; point (0 0 0); normal (0 0 0); }"),
                 "must not be zero", 1);
 }

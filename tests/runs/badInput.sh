@@ -66,6 +66,7 @@ refused "a.csv|boundary" "$csv; put a.csv ''" ispfFsiFoam
 refused "unit furlong is not known. Valid units are: .*mm.*particleDict.* at line" "sed -i 's/shape box; min (0 0 0).*/file \"a.stl\"; unit furlong; }/' system/particleDict; put a.stl 'solid a\nendsolid a\n'" generateParticles
 refused "rho.*physicalProperties|'rho'" "put constant/physicalProperties 'rho -1; mu 1;'" ispfFsiFoam
 refused "walls slides or turns in itself: what it clamps.*boundary.clamps|walls slides or turns in itself.*boundary" "sed -i 's/walls .*/walls { type wall; velocity (0 1 0); clamps (wall); }/' constant/boundary" ispfFsiFoam
+refused "'pressureDrop'. Valid entries here are: backflow flowRate normal outlet p point surface type velocity" "sed -i 's/type open;/type open; pressureDrop 1;/' constant/boundary" ispfFsiFoam
 refused "'m3'.*m\^3" "sed -i 's/^dx .*;/dx 0.01 [m3];/' system/particleDict" generateParticles
 refused "Unknown type 'wal'.*Did you mean 'wall'.*boundary.*at line 1" "sed -i 's/type wall/type wal/' constant/boundary" ispfFsiFoam
 refused "Unknown phase 'fluidd'" "sed -i '0,/phase fluid;/s//phase fluidd;/' system/particleDict" generateParticles

@@ -190,6 +190,38 @@ TEST_CASE("thinnest place and narrowest gap")
     CHECK(prism.thickness.size == relative(2, 1e-9));
 }
 
+TEST_CASE("the facets along a sharp edge are no thin place")
+{
+    // a wedge of 30 degrees, 2 long, with slivers along its edge.  The thickness is that at half a spacing from the edge
+    const scalar slope = std::tan(M_PI / 6), sliver = 1e-7;
+    triSurface wedge;
+    wedge.addPatch("wedge");
+    wedge.nodes = {{0, 0, 0}, {2, 0, 0}, {2, 2 * slope, 0}, {sliver, sliver * slope, 0},
+                   {0, 0, 3}, {2, 0, 3}, {2, 2 * slope, 3}, {sliver, sliver * slope, 3}};
+    wedge.triangles = {{0, 3, 1}, {3, 2, 1}, {4, 5, 7}, {7, 5, 6}, {0, 1, 5}, {0, 5, 4},
+                       {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+    wedge.patch.assign(12, 0);
+    REQUIRE(checkClosed(wedge).closed());
+    REQUIRE(wedge.volume() == relative(6 * slope, 1e-6));
+    for (const scalar spacing : {0.2, 0.1})
+    {
+        const scalar thickness = smallestFeatures(wedge, spacing, false).thickness.size;
+        CHECK(thickness > 0.2 * slope * spacing);
+        CHECK(thickness < slope * spacing);
+    }
+}
+
+TEST_CASE("edges whose triangles disagree on the outside are counted in words")
+{
+    triSurface s = box({0, 0, 0}, {1, 1, 1});
+    std::swap(s.triangles[0][1], s.triangles[0][2]);
+    CHECK(checkClosed(s).describe() ==
+          "6 open edges of total length 6.82843 m, the longest at (0.5 0.5 0) m, and 3 edges "
+          "whose two triangles disagree on the outside");
+    s = s.subset([](label t) { return t == 0 || t == 1; });
+    CHECK(checkClosed(s).describe().find("m, and 1 edge whose two") != word::npos);
+}
+
 TEST_CASE("the tightest rounding")
 {
     CHECK(smallestRadius(sphere({1, 2, 3}, 0.5, 4), 0.1, false).size == relative(0.5, 0.15));

@@ -198,4 +198,11 @@ for sense in given turned shuffled; do
     cmp -s particles.given "particles.$sense" || fail "the sense of facets matters where ends are capped: $sense"
 done
 volumeIs -0.001 0.001 1.566314e-6 "an oblique end"    # 24 sin(2 pi/48) 5^2 20
+! grep -q "rim moved\|e-[0-9][0-9] [-0-9]*)" out || fail "an oblique end: rounding is told: $(grep "rim moved\|e-" out)"
+# digits that are cut off are no move, teeth of 0.2 mm are
+awk '{ for (k = 1; k < 9; ++k) printf "%.4f ", $k; printf "%.4f\n", $9 }' oblique | stl part > constant/part.stl
+accepted "an oblique end of few digits" "capped *out at "
+! grep -q "rim moved" out || fail "digits that are cut off are told as a move: $(grep "rim moved" out)"
+awk '{ for (k = 3; k <= 9; k += 3) if ($k > 19.999 + $(k - 2)) $k += $(k - 1) > 0 ? 0.1 : -0.1; print }' oblique | stl part > constant/part.stl
+accepted "an oblique end with teeth" "capped *out at .*, rim moved by up to [0-9.]*e-05 m = 0.0[0-9]* dx"
 [ $failures = 0 ]

@@ -49,7 +49,8 @@ void boundary::printBalance(const particleCloud& cloud) const
     const auto strays = cloud.state.find(entries::strays);
     if (created + deleted + pushed > 0 || hasOpen() || strays)
         info() << "particles: " << cloud.n() << "; so far created " << created << ", deleted "
-               << deleted << ", put back " << pushed << "; strays " << label(strays.value_or(0))
+               << deleted << ", put back " << pushed << " off walls and planes; strays "
+               << label(strays.value_or(0)) << " without neighbours"
                << "\n";
 }
 

@@ -63,7 +63,7 @@ private:
     {
         const boundBox box = s_.bounds();
         const vector size = box.max - box.min;
-        line("box", place(box.min, 1e-9 * dx_) + " to " + place(box.max, 1e-9 * dx_) +
+        line("box", place(box.min, tiny_) + " to " + place(box.max, tiny_) +
                         " m: " + str(size[0] / dx_, 3) + " x " + str(size[1] / dx_, 3) + " x " +
                         str(size[2] / dx_, 3) + " dx");
         if (!(size.maxCoeff() < mostAcross * dx_))
@@ -96,8 +96,8 @@ private:
         {
             names.push_back(name);
             line("capped", name + " " + loop.describe(dx_) + ", normal " +
-                               place(loop.normal(), 1e-9) +
-                               (loop.offPlane > 1e-9 * dx_
+                               place(loop.normal(), 1e-6) +
+                               (loop.offPlane > settings_.weld
                                     ? ", rim moved by up to " + inSpacings(loop.offPlane, dx_)
                                     : word()));
         }
@@ -190,31 +190,31 @@ private:
     {
         const featureSizes sizes = smallestFeatures(s_, dx_, flat_);
         const auto say = [&](const char* what, const featureSize& f) {
-            if (f.found()) line(what, inSpacings(f.size, dx_) + " at " + place(f.at, 1e-9 * dx_));
+            if (f.found()) line(what, inSpacings(f.size, dx_) + " at " + place(f.at, tiny_));
         };
         say("thinnest", sizes.thickness);
         say("gap", sizes.gap);
         const featureSize radius = smallestRadius(s_, dx_, flat_);
         if (radius.found())
             line("rounding",
-                 "radius " + inSpacings(radius.size, dx_) + " at " + place(radius.at, 1e-9 * dx_));
+                 "radius " + inSpacings(radius.size, dx_) + " at " + place(radius.at, tiny_));
         if (radius.size < 2 * dx_)
             warning(name_ + " is rounded with a radius of " + inSpacings(radius.size, dx_) +
-                    " at " + place(radius.at, 1e-9 * dx_) +
+                    " at " + place(radius.at, tiny_) +
                     ": particles follow no curve tighter than two spacings");
         if (sizes.thickness.size < 2 * dx_)
             warning(name_ + " encloses " + inSpacings(sizes.thickness.size, dx_) + " at " +
-                    place(sizes.thickness.at, 1e-9 * dx_) +
+                    place(sizes.thickness.at, tiny_) +
                     ", its thinnest place: fewer than two particles across resolve nothing there");
         if (sizes.gap.size < dx_)
             warning(name_ + " leaves a gap of " + inSpacings(sizes.gap.size, dx_) + " at " +
-                    place(sizes.gap.at, 1e-9 * dx_) +
+                    place(sizes.gap.at, tiny_) +
                     ": particles on both sides will feel each other across it");
     }
 
     triSurface& s_;
     const bodySurfaceSettings& settings_;
-    scalar dx_;
+    scalar dx_, tiny_ = 1e-6 * dx_;  // tiny: a coordinate that is told as 0
     bool flat_;
     word name_;
 };
