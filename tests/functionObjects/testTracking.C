@@ -88,7 +88,8 @@ TEST_CASE("the shell at rest: volume and diameter of the shape, up to its facets
     CHECK(std::abs(d[2]) < 1e-8);
     CHECK(d[4] <= 2 * R * (1 + 1e-9));
     CHECK(s.output("diameter/0/zoneDiameter.dat")
-              .find("# Time        \tdiameter\tdDoverD\tmin\tmax\n") != word::npos);
+              .find("# Symmetry planes: of the whole body, not of the modelled quarter\n"
+                    "# Time        \tdiameter\tdDoverD\tmin\tmax\n") != word::npos);
 }
 
 TEST_CASE("an affine motion is followed exactly: volume by the determinant, diameters by the axes")

@@ -36,4 +36,28 @@ dataFile functionObject::table(const word& file, const List<word>& remarks,
     return dataFile(tablePath(file), remarks, titles, precision(digits));
 }
 
+// "quarter": what symmetry planes leave of the body; "" without them
+word functionObject::modelled() const
+{
+    const scalar copies = case_.walls->symmetryFactor();
+    if (copies == 1) return "";
+    return copies == 2 ? "half" : copies == 4 ? "quarter" : "1/" + str(copies);
+}
+
+List<word> functionObject::ofWhole(List<word> remarks, const word& values) const
+{
+    if (const word part = modelled(); !part.empty())
+        remarks.push_back("Symmetry planes: " + values + "of the whole body, not of the modelled " +
+                          part);
+    return remarks;
+}
+
+List<word> functionObject::ofModelled(List<word> remarks, const word& values) const
+{
+    if (const word part = modelled(); !part.empty())
+        remarks.push_back("Symmetry planes: " + values + "of the modelled " + part +
+                          ", not of the whole body");
+    return remarks;
+}
+
 }  // namespace ispf

@@ -26,9 +26,9 @@ public:
           surface_(dict.get<word>("surface"), c, dict.where("surface")),
           rest_(surface_.restVolume()),
           file_(table("cavityVolume.dat",
-                      {"Volume inside " + surface_.name() + ", of the whole body [" +
-                           word(c.cloud.nDims == 3 ? "m3]" : "m2]"),
-                       "at rest: " + str(rest_, 9)},
+                      ofWhole({"Volume inside " + surface_.name() +
+                                   (c.cloud.nDims == 3 ? " [m3]" : " [m2]"),
+                               "at rest: " + str(rest_, 9)}),
                       {"volume", "change", "changeOverRest"}, 9))
     {
     }

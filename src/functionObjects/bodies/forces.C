@@ -69,8 +69,8 @@ private:
         ofForce.push_back("covered");
         const word about = "CofR       : (" + str(centre_[0]) + " " + str(centre_[1]) + " " +
                            str(centre_[2]) + ")";
-        return {table("force" + suffix + ".dat", {"Force", about}, ofForce, 9),
-                table("moment" + suffix + ".dat", {"Moment", about}, ofMoment, 9)};
+        return {table("force" + suffix + ".dat", ofModelled({"Force", about}), ofForce, 9),
+                table("moment" + suffix + ".dat", ofModelled({"Moment", about}), ofMoment, 9)};
     }
 
     void put(pairOfFiles& files, const bodyLoad& l) const

@@ -47,10 +47,11 @@ class solidStress : public functionObject
 public:
     solidStress(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, dict, c),
-          file_(table("solidStress.dat",
-                      {"Stress [Pa] and principal stretches over the particles of the solid"},
-                      {"mean(vonMises)", "max(vonMises)", "max(stretch)", "min(stretch)",
-                       "max(|displacement|)"}))
+          file_(table(
+              "solidStress.dat",
+              ofModelled({"Stress [Pa] and principal stretches over the particles of the solid"}),
+              {"mean(vonMises)", "max(vonMises)", "max(stretch)", "min(stretch)",
+               "max(|displacement|)"}))
     {
         if (!c.structure)
             throw fatalError("solidStress wants a solid, but the case has none.", dict.where());

@@ -6,7 +6,7 @@
 //
 // The right side is the side with most of the chosen particles near the surface at the start.
 // Where the rim of the surface is nearest, sides are not defined and nothing is counted.
-// Columns, for the model without its images: wrongSide, their number; through, the number beyond by more than half
+// Columns, of the modelled part where symmetry planes cut the body: wrongSide, their number; through, the number beyond by more than half
 // a spacing, more than the size of a particle explains; deepest [m], the largest distance beyond;
 // putBack, how often a particle has been put back off these patches since the case began.  Rigid walls
 // are guarded, which keeps the first three small.
@@ -32,7 +32,8 @@ public:
     surfaceLeaks(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, dict, c),
           chosen_(c.cloud, dict, "fluid"),
-          file_(table("surfaceLeaks.dat", {"Particles on the wrong side of " + readSurface(dict)},
+          file_(table("surfaceLeaks.dat",
+                      ofModelled({"Particles on the wrong side of " + readSurface(dict)}),
                       titles(dict.found("patches"))))
     {
         label balance = 0;

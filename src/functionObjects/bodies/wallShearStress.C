@@ -69,12 +69,13 @@ public:
                 dict.where());
         histories_.resize(bodies_.size());
         for (const loadedBody& b : bodies_)
-            files_.push_back(table(
-                b.name() + ".dat",
-                {"Wall shear stress on " + b.name() + " [Pa]: mean over the area and largest value",
-                 "RRT [1/Pa]; covered: share of the area with fluid before it"},
-                {"mean(tau)", "max(tau)", "mean(TAWSS)", "max(TAWSS)", "mean(OSI)", "max(OSI)",
-                 "max(RRT)", "mean(p)", "covered"}));
+            files_.push_back(
+                table(b.name() + ".dat",
+                      ofModelled({"Wall shear stress on " + b.name() +
+                                      " [Pa]: mean over the area and largest value",
+                                  "RRT [1/Pa]; covered: share of the area with fluid before it"}),
+                      {"mean(tau)", "max(tau)", "mean(TAWSS)", "max(TAWSS)", "mean(OSI)",
+                       "max(OSI)", "max(RRT)", "mean(p)", "covered"}));
     }
 
     word defaultWriteControl() const override { return "writeTime"; }

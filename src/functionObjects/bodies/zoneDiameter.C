@@ -6,7 +6,7 @@
 //                   band 1e-3; nAngles 360; }
 //
 // With a band the radii are the mean of five planes over it.  Symmetry planes that contain the
-// axis complete the section.  An angle without an opposite side does not count.
+// axis complete the section: the diameter is that of the whole body.  An angle without an opposite side does not count.
 #include "functionObject.H"
 
 #include "dataFile.H"
@@ -32,9 +32,9 @@ public:
           images_(imagesAboutAxis(c.walls->images(), frame_)),
           rest_(measure(surface_.rest()).mean),
           file_(table("zoneDiameter.dat",
-                      {"Diameter of " + surface_.name() + " [m], over " + std::to_string(nAngles_) +
-                           " angles",
-                       "at rest: " + str(rest_, 9)},
+                      ofWhole({"Diameter of " + surface_.name() + " [m], over " +
+                                   std::to_string(nAngles_) + " angles",
+                               "at rest: " + str(rest_, 9)}),
                       {"diameter", "dDoverD", "min", "max"}, 9))
     {
         if (!(dict.get<vector>("axis").norm() > 0)) dict.fail("axis", "The axis has no direction.");

@@ -52,8 +52,8 @@ public:
     energy(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, dict, c),
           file_(table("energy.dat",
-                      {"Energies [J], powers [W] and their integrals [J]" +
-                       word(c.cloud.nDims == 2 ? ", per metre" : "")},
+                      ofWhole({"Energies [J], powers [W] and their integrals [J]" +
+                               word(c.cloud.nDims == 2 ? ", per metre" : "")}),
                       titles(), 9))
     {
         for (const word& w : c.walls->movingWalls())

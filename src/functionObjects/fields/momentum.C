@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Momentum of the particles; only of one copy where symmetry planes or cyclic patches make more.  Without a force from
+// Momentum of the particles; of the modelled part where symmetry planes cut the body, or cyclic patches repeat it.  Without a force from
 // outside it is constant.  In two dimensions per metre:
 //
 //     motion { type momentum; phase all; }        // or zones (a b)
@@ -25,7 +25,7 @@ public:
         : functionObject(name, dict, c),
           chosen_(c.cloud, dict, "all"),
           file_(table("momentum.dat",
-                      {"Momentum, moment of momentum about the origin, centre of mass"},
+                      ofModelled({"Momentum, moment of momentum about the origin, centre of mass"}),
                       {"momentum", "angular", "centre"}, 16))
     {
     }

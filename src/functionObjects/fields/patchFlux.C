@@ -33,8 +33,9 @@ public:
         : functionObject(name, dict, c),
           patch_(dict.get<word>("patch")),
           file_(table("patchFlux.dat",
-                      {"Volume through patch " + patch_ +
-                       ", out positive; of a cyclic patch along its separation"},
+                      ofWhole({"Volume through patch " + patch_ +
+                               ", out positive; of a cyclic patch along its separation"},
+                              "created and deleted of the modelled part, flux and volume "),
                       {"flux", "volume", "created", "deleted"}, 9))
     {
         List<word> names;
@@ -67,10 +68,10 @@ public:
                            c.cloud.dx, c.cloud.nDims)),
           U_(c.cloud, "U", dict.where()),
           sampler_(dict, c),
-          file_(table(
-              "patchFlux.dat",
-              {"Flow through the surface " + dict.get<word>("surface") + ", along its normals"},
-              {"flux", "covered"}, 9))
+          file_(table("patchFlux.dat",
+                      ofWhole({"Flow through the surface " + dict.get<word>("surface") +
+                               ", along its normals"}),
+                      {"flux", "covered"}, 9))
     {
         for (const facet& f : facets_) centres_.push_back(f.centre), area_ += f.area.norm();
         if (!(area_ > 0)) dict.fail("surface", "This surface has no area.");

@@ -5,7 +5,8 @@
 //
 // Each particle carries the scalar `residenceTime`: 0 at the start and beyond open faces, and it grows by dt in each step.
 // The field is written and restarted with the particles.  Particles that shifting has moved keep their value.
-// residenceTime.dat has its mean and its largest value over the fluid before the open faces.
+// residenceTime.dat has its mean and its largest value over the fluid before the open faces, of the modelled part
+// where symmetry planes cut the body.
 #include "functionObject.H"
 
 namespace ispf
@@ -22,10 +23,11 @@ public:
     residenceTime(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, dict, c),
           where_(dict.where()),
-          file_(table("residenceTime.dat",
-                      {"Residence time of the fluid before open faces [s]: mean over the particles "
-                       "and largest value"},
-                      {"mean", "max"}))
+          file_(
+              table("residenceTime.dat",
+                    ofModelled({"Residence time of the fluid before open faces [s]: mean over the "
+                                "particles and largest value"}),
+                    {"mean", "max"}))
     {
     }
 

@@ -4,8 +4,10 @@
 //     mean { type volFieldValue; operation volAverage; fields (U p); phase fluid; }     // or zones (a b)
 //
 //     volAverage      mean over the particles, which all have the same volume
-//     volIntegrate    sum of value times volume [m^3; m^2 in two dimensions], of the modelled part
-//     sum             sum over the particles, of the modelled part
+//     volIntegrate    sum of value times volume [m^3; m^2 in two dimensions]
+//     sum             sum over the particles
+//
+// All of the modelled part where symmetry planes cut the body.
 #include "functionObject.H"
 
 #include "dataFile.H"
@@ -26,7 +28,8 @@ public:
           fields_(fieldsOf(c.cloud, dict)),
           chosen_(c.cloud, dict, "all"),
           file_(table("volFieldValue.dat",
-                      {operation_ + " of the fields over the particles chosen"}, titles()))
+                      ofModelled({operation_ + " of the fields over the particles chosen"}),
+                      titles()))
     {
     }
 
