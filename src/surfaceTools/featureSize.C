@@ -36,34 +36,74 @@ void take(featureSize& best, const featureSize& other)
     if (other.size < best.size) best = other;
 }
 
-// The smallest size that is not exceeded within the radius around it, on the same side.  Single places towards a sharp
-// edge, or on a flaw of the mesh, may be as thin as rounding
-featureSize sustained(const List<featureSize>& sizes, const surfaceSearch& samples, scalar radius)
+// The smallest thickness or gap: sizes at the centres of the samples, along their normals times `side`.  It must not be
+// exceeded at the radius around, on the same side: single places towards a sharp edge, or on a flaw of the mesh, may be
+// as thin as rounding
+class smallest
 {
-    constexpr scalar sameSide = 0.7;  // cosine
-    const triSurface& s = samples.surface();
-    List<label> order;
-    for (label t = 0; t < s.size(); ++t)
-        if (std::isfinite(sizes[t].size)) order.push_back(t);
-    std::sort(order.begin(), order.end(), [&](label a, label b) {
-        return std::make_pair(sizes[a].size, a) < std::make_pair(sizes[b].size, b);
-    });
-    featureSize best;
-    for (const label t : order)
+public:
+    smallest(const surfaceSearch& search, const triSurface& samples, scalar side, bool flat)
+        : search_(search),
+          samples_(samples),
+          side_(side),
+          reach_(search.surface().bounds().diagonal()),
+          flat_(flat)
     {
-        if (sizes[t].size >= best.size) break;
-        featureSize here = sizes[t];
-        boundBox around;
-        around.add(vector(s.centre(t) - vector::Constant(radius)));
-        around.add(vector(s.centre(t) + vector::Constant(radius)));
-        for (const label u : samples.inBox(around))
-            if (std::isfinite(sizes[u].size) && s.normal(u).dot(s.normal(t)) > sameSide &&
-                (s.centre(u) - s.centre(t)).norm() <= radius)
-                here.size = std::max(here.size, sizes[u].size);
-        take(best, here);
     }
-    return best;
-}
+
+    featureSize find(scalar radius) const
+    {
+        List<scalar> sizes(samples_.size(), std::numeric_limits<scalar>::infinity());
+        parallelFor(samples_.size(), [&](label begin, label end) {
+            for (label t = begin; t < end; ++t)
+                if (const vector n = samples_.normal(t);
+                    n.squaredNorm() > 0 && !(flat_ && std::abs(n[2]) > 0.9))
+                    sizes[t] = at(samples_.centre(t), n).size;
+        });
+        List<label> order;
+        for (label t = 0; t < samples_.size(); ++t)
+            if (std::isfinite(sizes[t])) order.push_back(t);
+        std::sort(order.begin(), order.end(), [&](label a, label b) {
+            return std::make_pair(sizes[a], a) < std::make_pair(sizes[b], b);
+        });
+        featureSize best;
+        for (const label t : order)
+        {
+            if (sizes[t] >= best.size) break;
+            take(best, around(samples_.centre(t), samples_.normal(t), radius));
+        }
+        return best;
+    }
+
+private:
+    featureSize at(const vector& x, const vector& n) const
+    {
+        return opposite(search_, x, side_ * n, reach_, 1e-9 * reach_);
+    }
+
+    // The place at x with the largest of the sizes at the radius in four directions, in two if flat
+    featureSize around(const vector& x, const vector& n, scalar radius) const
+    {
+        constexpr scalar sameSide = 0.7;  // cosine
+        featureSize here = at(x, n);
+        const vector a = flat_ ? vector(n.cross(vector::UnitZ())) : n.unitOrthogonal();
+        const vector b = flat_ ? a : vector(n.cross(a));
+        for (const vector& way : {a, vector(-a), b, vector(-b)})
+        {
+            const surfacePoint q = search_.nearest(x + radius * way.normalized(), radius);
+            if (!q.found) continue;
+            const vector m = search_.surface().normal(q.triangle);
+            const scalar size = at(q.point, m).size;
+            if (m.dot(n) > sameSide && std::isfinite(size)) here.size = std::max(here.size, size);
+        }
+        return here;
+    }
+
+    const surfaceSearch& search_;
+    const triSurface& samples_;
+    scalar side_, reach_;
+    bool flat_;
+};
 
 }  // namespace
 
@@ -71,20 +111,10 @@ featureSizes smallestFeatures(const triSurface& surface, scalar spacing, bool fl
 {
     const surfaceSearch search(surface);
     triSurface samples = surface;
-    const scalar reach = surface.bounds().diagonal(), off = 1e-9 * reach;
     refine(samples, 1.5 * std::max(spacing, std::sqrt(surface.area() / mostPoints)));
-    List<featureSize> thickness(samples.size()), gap(samples.size());
-    parallelFor(samples.size(), [&](label begin, label end) {
-        for (label t = begin; t < end; ++t)
-        {
-            const vector n = samples.normal(t), x = samples.centre(t);
-            if (n.squaredNorm() == 0 || (flat && std::abs(n[2]) > 0.9)) continue;
-            thickness[t] = opposite(search, x, -n, reach, off);
-            gap[t] = opposite(search, x, n, reach, off);
-        }
-    });
-    const surfaceSearch places(std::move(samples));
-    return {sustained(thickness, places, 0.5 * spacing), sustained(gap, places, 0.5 * spacing)};
+    const scalar radius = 0.5 * spacing;
+    return {smallest(search, samples, -1, flat).find(radius),
+            smallest(search, samples, 1, flat).find(radius)};
 }
 
 }  // namespace ispf
