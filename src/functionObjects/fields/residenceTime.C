@@ -7,6 +7,7 @@
 // The field is written and restarted with the particles.  Particles that shifting has moved keep their value.
 // residenceTime.dat has its mean and its largest value over the fluid before the open faces.
 #include "functionObject.H"
+#include "thrombus.H"
 
 namespace ispf
 {
@@ -14,7 +15,7 @@ namespace ispf
 namespace
 {
 
-const word field = "residenceTime";
+const word& field = residenceTimeField;
 
 class residenceTime : public functionObject
 {
