@@ -19,7 +19,7 @@ namespace
 // Greatest number of halvings of a step of the user's length, and of an adjusted step
 constexpr int mostHalvings = 4, mostShortenings = 12;
 // Greatest number of repeated solutions of a step for its outlets
-constexpr int mostAsked = 10;
+constexpr int mostAsked = 20;
 // Largest ratio of an adjusted step to the step before
 constexpr scalar fastestGrowth = 2;
 // A step is refused if a particle moves farther [dx] and a pair changes more than this
