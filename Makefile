@@ -13,7 +13,7 @@ LIBS := core/base core/dictionary core/control geometry surfaceTools fileFormats
         operators/pairs operators/order \
         boundary/surfaces boundary/walls boundary/open boundary/patches \
         solid/reference solid/surface solid/materials solid/springs solid/discretisations solid/selection case \
-        schemes/common schemes/projection schemes/monolithic schemes/selection \
+        schemes/resistance schemes/common schemes/projection schemes/monolithic schemes/selection \
         functionObjects/base functionObjects/fields functionObjects/bodies functionObjects/list
 
 USES_core/base               :=
@@ -41,7 +41,8 @@ USES_solid/springs           := solid/reference solid/materials linearSolvers/kr
 USES_solid/discretisations   := solid/reference solid/materials
 USES_solid/selection         := solid/springs solid/discretisations
 USES_case                    := boundary/patches operators/order solid/selection
-USES_schemes/common          := case solid/surface
+USES_schemes/resistance      := case
+USES_schemes/common          := schemes/resistance solid/surface
 USES_schemes/projection      := schemes/common
 USES_schemes/monolithic      := schemes/common
 USES_schemes/selection       := schemes/projection schemes/monolithic

@@ -85,6 +85,7 @@ void fsiCase::readProperties()
     mu = hasMu ? physical.getInRange("mu", 0, 1e30, dims::dynamicViscosity)
                : rho * physical.getInRange("nu", 0, 1e30, dims::kinematicViscosity);
     viscosity = viscosityModel::New(physical, mu);
+    if (!viscosity) cloud.scalars.erase(viscosityRatio);  // of an earlier run with a model
     // all zones are one incompressible system with one density
     const dictionary zoneRho = physical.subOrEmptyDict("zoneDensities");
     for (const word& zone : zoneRho.keys())

@@ -47,6 +47,7 @@ const home homes[] = {
     {"case/fsiCase", "physical|zoneRho|perZone", "physicalProperties"},
     {"case/viscosityModel", "", "physicalProperties"},
     {"monolithic/outsideWall", "", "structureProperties"},
+    {"schemes/resistance/", "", "porosityProperties"},
     {"schemes/", "c.structureProperties", "structureProperties"},
     {"schemes/|case/", "", "sphSolution"},
     {"generateParticles/particleDict", "patch|boundary", "boundary"},

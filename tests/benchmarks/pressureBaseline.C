@@ -25,7 +25,7 @@ struct pressureSystem
     csrMatrix A;
     adjointPair pair;
     pressureOperator M;
-    List<scalar> b, p0;
+    List<scalar> b, p0, mobility;  // mobility: empty without resistance
     List<vector> points;
     scalar cellSize = 0;
 };
@@ -53,7 +53,7 @@ void assemble(fsiCase& c, scalar dt, pressureSystem& system)
     system.pair.setTolerance(closureTolerance(c.solution));
     system.pair.setup(cloud, c.list, *c.kernel, medium::all(cloud, c.list, s.B));
     sphm::laplacian(s, system.pair.stiffness(), system.A);
-    system.M.setup(cloud, c.list, system.pair, system.A);
+    system.M.setup(cloud, system.pair, system.A, system.mobility);
     cloud.fillGhosts(cloud.Up, false);
     List<scalar> f(cloud.n(), 0);
     system.pair.divergence(cloud.Up, f);

@@ -8,7 +8,7 @@ annotated=$cases/../../etc/caseDicts/annotated
 annotatedCase() {
     rm -rf "$scratch/case"; mkdir -p "$scratch/case/system" "$scratch/case/constant"; cd "$scratch/case" || exit 1
     cp "$annotated"/{controlDict,functions,particleDict,sphSchemes,sphSolution} system/
-    cp "$annotated"/{boundary,g,physicalProperties,structureProperties} constant/
+    cp "$annotated"/{boundary,g,physicalProperties,porosityProperties,structureProperties} constant/
 }
 annotatedCase; place
 solved
@@ -30,8 +30,13 @@ inPlaceOf() {
     place; solved
 }
 inPlaceOf constant/physicalProperties nu mu
+inPlaceOf constant/porosityProperties permeability d
 inPlaceOf constant/structureProperties G E
 inPlaceOf constant/structureProperties k_e E
+for shape in 'sphere; centre (0.1 0.1 0); radius 0.1' 'cylinder; point1 (0.1 0.1 0); radius 0.1' 'formula; formula "min(1, max(0, x/0.04))"'; do
+    annotatedCase; sed -i -E "s|^( *)shape .*|shape $shape;|; s|^ *m(in\|ax) .*||" constant/porosityProperties
+    place; solved
+done
 annotatedCase
 # entries in comments below this line replace those above it
 sed -i -E '1,/^\/\/ with structureModel totalLagrangian/d; /^\/\/ other materials/,$d; s|^( *)//((zeroEnergy\|radius\|material\|type\|E) .*\|[{}])|\1\2|' constant/structureProperties

@@ -7,6 +7,7 @@ namespace ispf
 
 using madeOutlet = std::unique_ptr<outlet>;
 
+madeOutlet newNonReflecting(const dictionary&, const word&);
 madeOutlet newResistance(const dictionary&, const word&);
 madeOutlet newWindkessel(const dictionary&, const word&);
 
@@ -37,6 +38,7 @@ std::unique_ptr<outlet> outlet::New(const dictionary& dict, const word& caseFold
 {
     using maker = madeOutlet (*)(const dictionary&, const word&);
     static const std::map<word, maker> kinds = {{"fixedPressure", newFixedPressure},
+                                                {"nonReflecting", newNonReflecting},
                                                 {"resistance", newResistance},
                                                 {"Windkessel", newWindkessel}};
     List<word> names;

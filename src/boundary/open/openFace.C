@@ -72,13 +72,19 @@ scalar openFace::outflow(const particleCloud& cloud) const
     return sum;
 }
 
-bool openFace::agrees(const particleCloud& cloud, scalar rho, scalar dt) const
+scalar openFace::area() const
 {
-    scalar area = 0;
-    for (const auto& [zone, A] : areas_) area += A.norm();
-    return !p_ ||
-           p_->agrees(images_ * outflow(cloud), {images_ * area * slowest * dx_ / dt,
-                                                 -images_ * area * dt / (rho * inertia * dx_)});
+    scalar sum = 0;
+    for (const auto& [zone, A] : areas_) sum += A.norm();
+    return images_ * sum;
+}
+
+void openFace::addOutlet(const particleCloud& cloud, scalar rho, scalar dt,
+                         List<outletPressure::solved>& all) const
+{
+    if (p_)
+        all.push_back({p_.get(), images_ * outflow(cloud), area() * slowest * dx_ / dt,
+                       -area() * dt / (rho * inertia * dx_)});
 }
 
 void openFace::accept(particleCloud& cloud, scalar t0, scalar t1) const

@@ -48,7 +48,7 @@ void openFace::setFlags(particleCloud& cloud, scalar rho, const List<vector>& bo
     List<scalar>& slope = cloud.scalars[slopeField];
     slope.resize(cloud.n(), 0);
     if (inflow_) return setVelocity(cloud, number);
-    given_ = p_->begin(step_, cloud.state.get(outletState(), {}));
+    given_ = p_->begin({step_.start, step_.end, rho / area()}, cloud.state.get(outletState(), {}));
     parallelFor(cloud.n() - cloud.nSolid(), [&](label begin, label end) {
         for (label i = cloud.nSolid() + begin; i < cloud.nSolid() + end; ++i)
         {

@@ -18,32 +18,65 @@ constexpr scalar exactness = 1e-4;
 scalar outletPressure::begin(const outlet::step& s, const List<scalar>& kept)
 {
     step_ = s;
-    if (again_) return p_;  // agrees() has found it
+    if (again_) return p_;  // agree() has found it
     tried_ = 0;
     scalar Q = 0;
-    if (kept.size() == 2 + kind_->state().size())
-        Q = kept[0], Y_ = kept[1], kind_->restore(List<scalar>(kept.begin() + 2, kept.end()));
+    const size_t own = kind_->state().size();
+    if (kept.size() >= 1 + own)
+        Q = kept[0], Y_.assign(kept.begin() + 1, kept.end() - own),
+        kind_->restore(List<scalar>(kept.end() - own, kept.end()));
     return p_ = kind_->pressure(s, Q);
 }
 
-bool outletPressure::agrees(scalar Q, const scales& s)
+// Broyden's rule: the least change of dQ/dp with which it explains the last change of Q.  `own` is the place of this outlet
+void outletPressure::learn(const List<solved>& all, size_t own)
 {
-    const scalar slope = kind_->slope(step_);
-    if (slope == 0) return true;
-    if (tried_ > 0 && p_ != lastP_) Y_ = std::min((Q - lastQ_) / (p_ - lastP_), scalar(0));
-    else if (Y_ == 0) Y_ = s.Y0;
-    const scalar lacks = kind_->pressure(step_, Q) - p_, change = lacks / (1 - slope * Y_);
-    again_ = std::abs(Y_ * change) > exactness * (std::abs(Q) + s.Q0);
-    if (!again_) return true;
-    lastP_ = p_, lastQ_ = Q, p_ += change, ++tried_;
-    return false;
+    if (Y_.size() != all.size()) Y_.assign(all.size(), 0), Y_[own] = all[own].Y0;
+    if (tried_ == 0) return;
+    scalar unexplained = all[own].Q - lastQ_, way = 0;
+    for (size_t k = 0; k < all.size(); ++k)
+    {
+        const scalar dp = all[k].of->p_ - all[k].of->lastP_;
+        unexplained -= Y_[k] * dp, way += dp * dp;
+    }
+    for (size_t k = 0; way > 0 && k < all.size(); ++k)
+        Y_[k] += unexplained * (all[k].of->p_ - all[k].of->lastP_) / way;
+    Y_[own] = std::min(Y_[own], scalar(0));
+}
+
+bool outletPressure::agree(List<solved> all)
+{
+    std::erase_if(all, [](const solved& s) { return s.of->kind_->slope(s.of->step_) == 0; });
+    const label n = label(all.size());
+    Eigen::MatrixXd Y(n, n), A(n, n);
+    Eigen::VectorXd lacks(n);
+    for (label i = 0; i < n; ++i)
+    {
+        outletPressure& o = *all[i].of;
+        o.learn(all, size_t(i));
+        Y.row(i) = Eigen::Map<const Eigen::RowVectorXd>(o.Y_.data(), n);
+        A.row(i) = -o.kind_->slope(o.step_) * Y.row(i), A(i, i) += 1;
+        lacks[i] = o.kind_->pressure(o.step_, all[i].Q) - o.p_;
+    }
+    const Eigen::VectorXd change = A.partialPivLu().solve(lacks), dQ = Y * change;
+    bool again = false;
+    for (label i = 0; i < n; ++i)
+        again = again || std::abs(dQ[i]) > exactness * (std::abs(all[i].Q) + all[i].Q0);
+    for (label i = 0; i < n; ++i)
+    {
+        outletPressure& o = *all[i].of;
+        o.again_ = again;
+        if (again) o.lastP_ = o.p_, o.lastQ_ = all[i].Q, o.p_ += change[i], ++o.tried_;
+    }
+    return !again;
 }
 
 List<scalar> outletPressure::accept(const outlet::step& s, scalar Q)
 {
     again_ = false;
-    kind_->accept(s, Q);
-    List<scalar> kept = {Q, Y_};
+    kind_->accept({s.start, s.end, step_.inertia}, Q);
+    List<scalar> kept = {Q};
+    kept.insert(kept.end(), Y_.begin(), Y_.end());
     for (const scalar s : kind_->state()) kept.push_back(s);
     return kept;
 }

@@ -69,9 +69,9 @@ void boundary::setOpenVelocity(particleCloud& cloud, const List<vec4>& friction,
 
 bool boundary::outletsAgree(const particleCloud& cloud, scalar rho, scalar dt) const
 {
-    bool all = true;
-    for (const auto& p : content_->patches) all = p->agrees(cloud, rho, dt) && all;
-    return all;
+    List<outletPressure::solved> all;
+    for (const auto& p : content_->patches) p->addOutlet(cloud, rho, dt, all);
+    return outletPressure::agree(std::move(all));
 }
 
 void boundary::updateGhosts(particleCloud& cloud) const

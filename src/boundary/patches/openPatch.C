@@ -43,9 +43,10 @@ public:
         face_->setStrip(cloud, walls);
     }
     void addSwept(const particleCloud& cloud, sweptRates& r) const override;
-    bool agrees(const particleCloud& cloud, scalar rho, scalar dt) const override
+    void addOutlet(const particleCloud& cloud, scalar rho, scalar dt,
+                   List<outletPressure::solved>& all) const override
     {
-        return face_->agrees(cloud, rho, dt);
+        face_->addOutlet(cloud, rho, dt, all);
     }
     void follow(particleCloud& cloud, const List<vec4>& friction, scalar rho,
                 scalar dt) const override

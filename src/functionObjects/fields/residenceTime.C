@@ -8,6 +8,7 @@
 // residenceTime.dat has its mean and its largest value over the fluid before the open faces, of the modelled part
 // where symmetry planes cut the body.
 #include "functionObject.H"
+#include "thrombus.H"
 
 namespace ispf
 {
@@ -15,7 +16,7 @@ namespace ispf
 namespace
 {
 
-const word field = "residenceTime";
+const word& field = residenceTimeField;
 
 class residenceTime : public functionObject
 {

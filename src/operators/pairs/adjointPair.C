@@ -75,23 +75,36 @@ ISPF_INLINE scalar wallPart(const view& v, const vec4* h, label i)
     return sum[0] + sum[1] + sum[2];
 }
 
+// weight(i, j) multiplies W_ij of (2.8)
+template <class Weight>
+ISPF_INLINE void remainderOf(const view& v, const vec4* g, label i, vec4* m, scalar* direct,
+                             const Weight& weight)
+{
+    const simd4 inSpace = {1, 1, 1, 0}, gi = g[i].s, xi = v.x[i].s;
+    simd4 moment = {};
+    scalar sum = 0;
+    forNeighbours(v.list, v.row(i), [&](pairIndex k, label j) {
+        const simd4 d = (v.x[j].s - xi) * inSpace, s = (gi + g[j].s) * d;
+        const scalar jump = gi[3] - g[j].s[3] + 0.5 * (s[0] + s[1] + s[2]);
+        const scalar weighted = -adjointPair::stabiliserWeight * v.list.F[k] * weight(i, j) * jump;
+        sum += weighted, moment += weighted * d;
+    });
+    m[i].s = moment, direct[i] = 2 * sum;
+}
+
 ISPF_HOT void remainderRange(const view& v, const vec4* g, label begin, label end, vec4* m,
                              scalar* direct)
 {
-    const simd4 inSpace = {1, 1, 1, 0};
     for (label i = begin; i < end; ++i)
-    {
-        const simd4 gi = g[i].s, xi = v.x[i].s;
-        simd4 moment = {};
-        scalar sum = 0;
-        forNeighbours(v.list, v.row(i), [&](pairIndex k, label j) {
-            const simd4 d = (v.x[j].s - xi) * inSpace, s = (gi + g[j].s) * d;
-            const scalar jump = gi[3] - g[j].s[3] + 0.5 * (s[0] + s[1] + s[2]);
-            const scalar weighted = -adjointPair::stabiliserWeight * v.list.F[k] * jump;
-            sum += weighted, moment += weighted * d;
-        });
-        m[i].s = moment, direct[i] = 2 * sum;
-    }
+        remainderOf(v, g, i, m, direct, [](label, label) { return 1.0; });
+}
+
+// The same with W_ij root_i root_j
+ISPF_HOT void weakenedRange(const view& v, const vec4* g, const scalar* root, label begin,
+                            label end, vec4* m, scalar* direct)
+{
+    for (label i = begin; i < end; ++i)
+        remainderOf(v, g, i, m, direct, [&](label a, label b) { return root[a] * root[b]; });
 }
 
 }  // namespace
@@ -351,9 +364,19 @@ void adjointPair::remainder(const List<vec4>& g, List<vec4>& m, List<scalar>& di
     const view v{*list_, within_.end->data(), cloud_->x.data(), faces_};
     parallelFor(cloud_->n() - first, [&](label begin, label end) {
         begin += first, end += first;
-        remainderRange(v, g.data(), begin, end, m.data(), direct.data());
+        if (root_.empty()) remainderRange(v, g.data(), begin, end, m.data(), direct.data());
+        else weakenedRange(v, g.data(), root_.data(), begin, end, m.data(), direct.data());
     });
     countPairs(list_->nPairs() - list_->start[first], label(sizeof(label)) + label(sizeof(scalar)));
+}
+
+void adjointPair::weaken(const List<scalar>& mobility)
+{
+    root_.resize(mobility.empty() ? 0 : cloud_->nAll());
+    forEach(0, label(root_.size()), [&](label j) {
+        const label owner = cloud_->ownerOf(j);
+        root_[j] = owner < 0 ? 1 : std::sqrt(mobility[owner]);
+    });
 }
 
 List<scalar> adjointPair::stiffness() const

@@ -19,7 +19,7 @@ namespace
 // Greatest number of halvings of a step of the user's length, and of an adjusted step
 constexpr int mostHalvings = 4, mostShortenings = 12;
 // Greatest number of repeated solutions of a step for its outlets
-constexpr int mostAsked = 10;
+constexpr int mostAsked = 20;
 // Largest ratio of an adjusted step to the step before
 constexpr scalar fastestGrowth = 2;
 // A step is refused if a particle moves farther [dx] and a pair changes more than this
@@ -47,7 +47,8 @@ const stateEntry<std::array<scalar, 2>> deformation{"deformation"};
 
 }  // namespace entries
 
-couplingScheme::couplingScheme(fsiCase& c) : c_(c), energy_(c), endless_(shiftingFrame(c) == "mean")
+couplingScheme::couplingScheme(fsiCase& c)
+    : c_(c), energy_(c), zones_(resistanceZones::New(c)), endless_(shiftingFrame(c) == "mean")
 {
 }
 
@@ -227,6 +228,18 @@ void couplingScheme::move(const timeScheme& time, bool mean)
     energy_.shifts([&] {
         for (size_t i = 0; i < toSolid_.size(); ++i) c_.cloud.Up[i].s += toSolid_[i].s;
     });
+}
+
+void couplingScheme::setResistance()
+{
+    if (!zones_) return;
+    const auto before = c_.cloud.vectors.find(levelBefore);
+    zones_->setStep(before == c_.cloud.vectors.end() ? nullptr : &before->second);
+}
+
+void couplingScheme::growThrombus(scalar dt)
+{
+    if (zones_) zones_->grow(dt);
 }
 
 void couplingScheme::beginMemory(const timeScheme& time, scalar ahead)

@@ -31,19 +31,23 @@ void coupledSystem::bookMomentum(const List<vec4>& before, const List<vec4>& spr
         K_->apply(phi_, Ku_);
         forEach(0, cloud.nSolid(), [&](label i) { spring[i].s -= dt_ * Ku_[i].s; });
     }
-    const auto [forced, left] = sumsOf(0, cloud.n(), [&](label i) -> std::array<scalar, 2> {
-        if (!cloud.isFree(i)) return {};
-        const vector u = phi_[i].xyz(), gained = u - before[i].xyz();
-        vector force = vector::Zero();
-        if (!c_.bodyForce.empty())
-            force += m * (c_.bodyForce[cloud.zone[i]] - hydrostatic_.acceleration());
-        if (!drop.empty()) force -= V * drop[i].xyz();
-        vector rest = viscousFactor() * lap_[i].xyz() + V * gp_[i].xyz() - force;
-        if (!drop.empty()) rest -= V * drop[i].xyz();  // gp_ contains it
-        if (i < label(spring.size())) rest -= spring[i].xyz();
-        return {dt_ * u.dot(force), u.dot(m * gained + dt_ * rest)};
-    });
+    const auto [forced, left, resisted] =
+        sumsOf(0, cloud.n(), [&](label i) -> std::array<scalar, 3> {
+            if (!cloud.isFree(i)) return {};
+            const vector u = phi_[i].xyz(), gained = u - before[i].xyz();
+            vector force = vector::Zero();
+            if (!c_.bodyForce.empty())
+                force += m * (c_.bodyForce[cloud.zone[i]] - hydrostatic_.acceleration());
+            if (!drop.empty()) force -= V * drop[i].xyz();
+            vector rest = viscousFactor() * lap_[i].xyz() + V * gp_[i].xyz() - force;
+            if (!drop.empty()) rest -= V * drop[i].xyz();  // gp_ contains it
+            if (i < label(spring.size())) rest -= spring[i].xyz();
+            const vector resists = chi_.empty() ? vector(vector::Zero()) : vector(V * chi_[i] * u);
+            return {dt_ * u.dot(force), u.dot(m * gained + dt_ * (rest + resists)),
+                    dt_ * u.dot(resists)};
+        });
     energy.bookFriction(rows_.viscous().powerOf(phi_), dt_ * c_.mu * V);
+    energy[energyLedger::viscosity] -= resisted;
     energy[energyLedger::forces] += forced;
     energy[energyLedger::solver] += left;
     energy.bookSprings(spring, dt_);

@@ -5,13 +5,13 @@ namespace ispf
 {
 
 void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solidSurface* surface,
-                          const blockMatrix3* K)
+                          const blockMatrix3* K, const List<scalar>& chi)
 {
     const particleCloud& cloud = c_.cloud;
     dt_ = dt, K_ = K;
     rows_.setup(c_.cloud, c_.list, c_.correction, *c_.kernel, volume, surface);
+    weaken(chi);
     const List<scalar>& viscous = rows_.viscous().sum();
-    const scalar inertia = c_.rho * cloud.volume() / dt;
     // clamped particles have no tangent among themselves: they get the mean diagonal of free ones
     const auto [nFree, sum] = sumsOf(0, K ? cloud.nSolid() : 0, [&](label i) {
         return cloud.uFixed[i] ? std::array<scalar, 2>{}
@@ -20,17 +20,30 @@ void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solid
     const scalar meanTangent = nFree > 0 ? sum / nFree : 0;
     diagonal_.resize(cloud.n()), tau_.resize(cloud.n());
     forEach(0, cloud.n(), [&](label i) {
-        diagonal_[i] = inertia - viscousFactor() * viscous[i];
+        diagonal_[i] = inertia(i) - viscousFactor() * viscous[i];
         if (K && i < cloud.nSolid())
             diagonal_[i] +=
                 dt * (cloud.uFixed[i] ? meanTangent : K->diagonal[i].trace() / cloud.nDims);
         tau_[i] = cloud.volume() / diagonal_[i];
     });
-    fluidTau_ = sumOf(cloud.nSolid(), cloud.n(), [&](label i) { return tau_[i]; }) /
+    // without resistance, which weakens the stabiliser by itself
+    const scalar inertiaAlone = c_.rho * cloud.volume() / dt;
+    fluidTau_ = sumOf(cloud.nSolid(), cloud.n(),
+                      [&](label i) {
+                          return cloud.volume() / (inertiaAlone - viscousFactor() * viscous[i]);
+                      }) /
                 scalar(cloud.n() - cloud.nSolid());
     rows_.setTau(tau_, fluidTau_);
     enclosed_.setup([this](const List<vec4>& phi, List<vec4>& gp) { rows_.solidGradient(phi, gp); },
                     surface);
+}
+
+// Keeps chi, and weakens the fluid's stabiliser where it resists, (7.15)
+void coupledSystem::weaken(const List<scalar>& chi)
+{
+    chi_ = chi, mobility_.resize(chi.size());
+    forEach(0, label(chi.size()), [&](label i) { mobility_[i] = 1 / (1 + dt_ / c_.rho * chi[i]); });
+    rows_.weaken(mobility_);
 }
 
 // Ghosts whose pressure differs from that of their source, by the drop of a cyclic pair
@@ -66,7 +79,7 @@ void coupledSystem::writeRows(const List<vec4>& phi, const List<vec4>& lap, cons
                               const List<scalar>& continuity, List<scalar>& y) const
 {
     const particleCloud& cloud = c_.cloud;
-    const scalar inertia = c_.rho * cloud.volume() / dt_, V = cloud.volume();
+    const scalar V = cloud.volume();
     const label nSolid = cloud.nSolid();
     if (K_)
     {
@@ -77,7 +90,7 @@ void coupledSystem::writeRows(const List<vec4>& phi, const List<vec4>& lap, cons
     parallelFor(cloud.n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
-            simd4 m = inertia * phi[i].s + viscousFactor() * lap[i].s + V * gp[i].s;
+            simd4 m = inertia(i) * phi[i].s + viscousFactor() * lap[i].s + V * gp[i].s;
             if (K_ && i < nSolid) m += dt_ * Ku_[i].s;
             m /= diagonal_[i];
             if (cloud.uFixed[i]) m = phi[i].s;

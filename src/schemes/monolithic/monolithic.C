@@ -224,8 +224,10 @@ void monolithic::accept(const List<scalar>& z)
 void monolithic::assemble()
 {
     c_.time.stages.in("operators", [&] {
-        if (c_.structure) system_.setup(time_.tau(), volume_.get(), &surface_, &elastic_.tangent());
-        else system_.setup(time_.tau(), nullptr, nullptr, nullptr);
+        const List<scalar> chi = zones_ ? zones_->chi() : List<scalar>();
+        if (c_.structure)
+            system_.setup(time_.tau(), volume_.get(), &surface_, &elastic_.tangent(), chi);
+        else system_.setup(time_.tau(), nullptr, nullptr, nullptr, chi);
     });
     c_.time.stages.in("preconditioner", [&] { preconditioner_.setup(); });
 }
@@ -303,6 +305,7 @@ void monolithic::begin(scalar t, scalar dt)
     structureState();
     system_.hydrostatic().take(cloud);
     outsideState();
+    setResistance();  // (1.10)
     time_.begin(cloud);
 }
 
@@ -335,6 +338,7 @@ word monolithic::attempt(scalar t, scalar dt)
     system_.hydrostatic().giveBack(cloud);                                        // (1.9)
     if (const word reason = tooRough(time_, dt); !reason.empty()) return reason;  // (8.44)
 
+    growThrombus(dt);                             // (1.13)
     c_.followOpen(system_.rows().viscous(), dt);  // strips follow the fluid, theory 4.2
     shift(shifting_, dt);                         // with the present neighbours, (8.30) to (8.36)
     move(time_);                                  // (8.42) with u_b for F

@@ -26,6 +26,7 @@ public:
     explicit laplacianRows(const coupledSystem& system)
         : cloud_(system.fsi().cloud),
           list_(system.fsi().list),
+          system_(system),
           rows_(system.rows()),
           tau_(system.tau()),
           free_(system.dt() / system.fsi().rho),
@@ -67,8 +68,13 @@ private:
             const label j = cloud_.ownerOf(neighbour);
             if (j == i || !rows_.acts(i) || !rows_.acts(j)) return;
             const bool same = k < list_.mid[i];
-            entry(j, -2 * list_.F[k] * (same ? free_ : tauBeside(i, j)), same);
+            entry(j, -2 * list_.F[k] * (same ? free_ * mobility(i, j) : tauBeside(i, j)), same);
         });
+    }
+    // Mean of beta, (7.15)
+    scalar mobility(label i, label j) const
+    {
+        return 0.5 * (system_.mobility(i) + system_.mobility(j));
     }
     // of a neighbour of the other phase: a solid yields little to the fluid, fluid gives way to a solid
     scalar tauBeside(label i, label j) const
@@ -78,6 +84,7 @@ private:
 
     const particleCloud& cloud_;
     const neighbourList& list_;
+    const coupledSystem& system_;
     const coupledRows& rows_;
     const List<scalar>& tau_;
     scalar free_;
@@ -142,14 +149,15 @@ void monolithicPreconditioner::stiffen()
     });
 }
 
-// Eigenvalues of A_ii^-1 A lie in [least, 2 - least] in the fluid, by Gershgorin's circles.  After m sweeps Chebyshev's
+// Eigenvalues of A_ii^-1 A lie in [least, 2 - least] in the fluid, by Gershgorin's circles: least is the smallest share of
+// inertia and resistance in A_ii.  After m sweeps Chebyshev's
 // iteration leaves 1/T_m(1/(1 - least)) of an error, section 7.8
 void monolithicPreconditioner::chooseSweeps()
 {
     const particleCloud& cloud = system_.fsi().cloud;
-    const scalar largest =
-        largestOf(cloud.nSolid(), cloud.n(), [&](label i) { return system_.diagonal()[i]; });
-    leastEigenvalue_ = system_.fsi().rho * cloud.volume() / system_.dt() / largest;
+    leastEigenvalue_ = 1 / largestOf(cloud.nSolid(), cloud.n(), [&](label i) {
+                           return system_.diagonal()[i] / system_.inertia(i);
+                       });
     const scalar reach = std::max(1 - leastEigenvalue_, 1e-9);
     sweeps_ = label(std::ceil(std::acosh(1 / leaves) / std::acosh(1 / reach)));
 }
@@ -160,7 +168,6 @@ void monolithicPreconditioner::solveMomentum(List<vec4>& u) const
     const particleCloud& cloud = system_.fsi().cloud;
     const label nSolid = cloud.nSolid(), nFluid = cloud.n() - nSolid;
     const List<scalar>& A = system_.diagonal();
-    const scalar inertia = system_.fsi().rho * cloud.volume() / system_.dt();
     if (system_.tangent()) solid_.solve(A, cloud, u);
 
     const scalar reach = 1 - leastEigenvalue_;
@@ -177,7 +184,7 @@ void monolithicPreconditioner::solveMomentum(List<vec4>& u) const
             for (label k = begin; k < end; ++k)
             {
                 const label i = nSolid + k;
-                const simd4 Au = inertia * u[i].s + system_.viscousFactor() * work_[i].s;
+                const simd4 Au = system_.inertia(i) * u[i].s + system_.viscousFactor() * work_[i].s;
                 const simd4 next = u[i].s + f_[k].s - Au / A[i];
                 const simd4 improved = before_[k].s + omega * (next - before_[k].s);
                 before_[k] = u[i];

@@ -48,15 +48,21 @@ fractionalStep::fractionalStep(scalar rho, scalar mu, const word& viscosity,
         implicit_ = std::make_unique<projectionViscosity>(solvers.subOrEmptyDict("U"));
 }
 
-void fractionalStep::setup(particleCloud& cloud, const stencil& s, const smoothingKernel& kernel)
+void fractionalStep::setup(particleCloud& cloud, const stencil& s, const smoothingKernel& kernel,
+                           const List<scalar>& resists)
 {
+    resists_ = resists, mobility_.resize(resists.size());
+    forEach(0, label(resists.size()), [&](label i) { mobility_[i] = 1 / (1 + resists[i]); });
     pair_.setup(cloud, s.list, kernel, medium::all(cloud, s.list, s.B));
+    pair_.weaken(mobility_);
     viscous_.setup(s);
-    sphm::laplacian(s, pair_.stiffness(), compact_);
-    operator_.setup(cloud, s.list, pair_, compact_);
+    List<scalar> stiffness = pair_.stiffness();
+    forEach(0, label(resists.size()), [&](label i) { stiffness[i] *= mobility_[i]; });
+    sphm::laplacian(s, stiffness, compact_);
+    operator_.setup(cloud, pair_, compact_, mobility_);
 }
 
-// dt/rho G p, zero where the velocity is prescribed
+// beta dt/rho G p, zero where the velocity is prescribed
 List<vec4> fractionalStep::corrected(const particleCloud& cloud, scalar dt)
 {
     List<scalar> p(cloud.n());
@@ -64,41 +70,48 @@ List<vec4> fractionalStep::corrected(const particleCloud& cloud, scalar dt)
     operator_.gradient(p, gradient_);
     List<vec4> change(gradient_.begin(), gradient_.begin() + cloud.n());
     const simd4 part = {dt / rho_, dt / rho_, dt / rho_, 0};
-    forEach(0, cloud.n(), [&](label i) { change[i].s *= cloud.uFixed[i] ? simd4{} : part; });
+    forEach(0, cloud.n(),
+            [&](label i) { change[i].s *= cloud.uFixed[i] ? simd4{} : yields(i) * part; });
     return change;
 }
 
 void fractionalStep::predict(particleCloud& cloud, const stencil&, const List<vec4>& a, scalar dt)
 {
-    const simd4 velocity = {dt, dt, dt, 0};
     first_ = !(behind(cloud) > 0);
     added_ = a, before_.assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
-    if (implicit_)
-    {
-        // the first p of a case is a guess
-        List<vec4> change(cloud.n(), vec4{});
-        if (!first_) change = corrected(cloud, dt);
-        List<vec4> dtA(a);
-        forEach(0, cloud.n(), [&](label i) { dtA[i].s = velocity * a[i].s - change[i].s; });
-        projectionViscosity::laplacian lap;
-        lap.of = [&](const List<vec4>& u, List<vec4>& result) {
-            viscous_.apply(u, result);
-            forEach(0, label(result.size()), [&](label i) { result[i].s *= -2; });
-        };
-        lap.diagonal = viscous_.sum();
-        for (scalar& d : lap.diagonal) d *= 2;
-        implicit_->solve(cloud, lap, dtA, dt * nu_);
-        sticks_.assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
-        forEach(0, cloud.n(), [&](label i) { cloud.Up[i].s += change[i].s; });
-        return;
-    }
+    if (implicit_) return stickImplicitly(cloud, a, dt);
     sticks_ = before_;
     cloud.fillGhosts(cloud.Up, false);
     List<vec4> lap;
     viscous_.apply(cloud.Up, lap);
+    const simd4 velocity = {1, 1, 1, 0};
     forEach(0, cloud.n(), [&](label i) {
-        if (!cloud.uFixed[i]) cloud.Up[i].s += velocity * (a[i].s - 2 * nu_ * lap[i].s);
+        if (cloud.uFixed[i]) return;
+        const simd4 u = cloud.Up[i].s + velocity * (dt * (a[i].s - 2 * nu_ * lap[i].s));
+        cloud.Up[i].setXyz(yields(i) * vec4{u}.xyz());
     });
+}
+
+// (6.15)
+void fractionalStep::stickImplicitly(particleCloud& cloud, const List<vec4>& a, scalar dt)
+{
+    // the first p of a case is a guess
+    List<vec4> change(cloud.n(), vec4{});
+    if (!first_) change = corrected(cloud, dt);
+    const simd4 velocity = {dt, dt, dt, 0};
+    List<vec4> added(a);
+    forEach(0, cloud.n(),
+            [&](label i) { added[i].s = velocity * a[i].s - change[i].s / yields(i); });
+    projectionViscosity::laplacian lap;
+    lap.of = [&](const List<vec4>& u, List<vec4>& result) {
+        viscous_.apply(u, result);
+        forEach(0, label(result.size()), [&](label i) { result[i].s *= -2; });
+    };
+    lap.diagonal = viscous_.sum(), lap.resists = resists_;
+    for (scalar& d : lap.diagonal) d *= 2;
+    implicit_->solve(cloud, lap, added, dt * nu_);
+    sticks_.assign(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
+    forEach(0, cloud.n(), [&](label i) { cloud.Up[i].s += change[i].s; });
 }
 
 // Floor of the residual of the pressure equation: its value when the divergence is only rounding, as in fluid at rest or in
@@ -158,15 +171,19 @@ void fractionalStep::bookMomentum(particleCloud& cloud, scalar dt, energyLedger&
     sticks_.resize(cloud.nAll());
     cloud.fillGhosts(sticks_, false);
     viscous_.apply(sticks_, lap);
-    const auto [crossed, forced, left] = sumsOf(0, cloud.n(), [&](label i) -> std::array<scalar, 3> {
+    const auto [crossed, forced, left,
+                resisted] = sumsOf(0, cloud.n(), [&](label i) -> std::array<scalar, 4> {
         if (!cloud.isFree(i)) return {};
         const vector u = cloud.Up[i].xyz(), gained = u - before_[i].xyz();
         const vector viscous = -2 * dt * nu_ * lap[i].xyz(), a = dt * added_[i].xyz();
+        const vector resist = resists_.empty() ? vector(vector::Zero()) : vector(-resists_[i] * u);
         return {(u - sticks_[i].xyz()).dot(viscous), u.dot(a),
-                u.dot(gained + dt / rho_ * gradient_[i].xyz() - a - viscous)};
+                u.dot(gained + dt / rho_ * gradient_[i].xyz() - a - viscous - resist),
+                u.dot(resist)};
     });
     const scalar m = rho_ * cloud.volume();
     energy.bookFriction(viscous_.powerOf(sticks_), m * dt * nu_);
+    energy[energyLedger::viscosity] += m * resisted;
     energy[energyLedger::step] += m * crossed;
     energy[energyLedger::forces] += m * forced;
     energy[energyLedger::solver] += m * left;

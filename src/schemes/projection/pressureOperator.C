@@ -4,10 +4,10 @@
 namespace ispf
 {
 
-void pressureOperator::setup(const particleCloud& cloud, const neighbourList&,
-                             const adjointPair& pair, const csrMatrix& compact)
+void pressureOperator::setup(const particleCloud& cloud, const adjointPair& pair,
+                             const csrMatrix& compact, const List<scalar>& mobility)
 {
-    cloud_ = &cloud, pair_ = &pair, compact_ = &compact;
+    cloud_ = &cloud, pair_ = &pair, compact_ = &compact, mobility_ = &mobility;
     phi_.assign(cloud.nAll(), vec4{}), g_.assign(cloud.nAll(), vec4{});
     m_.assign(cloud.nAll(), vec4{}), direct_.assign(cloud.n(), 0);
 }
@@ -33,7 +33,10 @@ void pressureOperator::rows(List<scalar>& y) const
     pair_->remainder(g_, m_, direct_);
     parallelFor(cloud.n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
-            if (!cloud.uFixed[i]) m_[i].s += g_[i].s * simd4{1, 1, 1, 0};
+        {
+            const scalar yields = mobility_->empty() ? 1 : (*mobility_)[i];
+            if (!cloud.uFixed[i]) m_[i].s += g_[i].s * simd4{yields, yields, yields, 0};
+        }
     });
     cloud.fillGradientGhosts(m_);
     pair_->divergence(m_, y);

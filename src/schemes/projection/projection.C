@@ -73,6 +73,7 @@ public:
                     shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx)),
           hydrostatic_(c)
     {
+        if (zones_ && zones_->needsSpeed()) time_.keepLevels();
         sources_.add(std::make_unique<zoneSource>(c));
         sources_.add(std::make_unique<drainedSource>(c, step_.pair()));
         const auto refuse = [&](const word& key) {
@@ -110,6 +111,7 @@ private:
     void addSlope(scalar sign, const vector& ofState);
     void begin(scalar t, scalar dt);
     void solve(const stencil& s, scalar dt);
+    List<scalar> resists(scalar dt) const;
 
     dictionary dict_;
     bool explicit_, mean_;
@@ -179,6 +181,15 @@ void projection::addSlope(scalar sign, const vector& ofState)
             cloud.addToGhostPressure(g, part(g) - part(source));
 }
 
+// dt chi/rho of (6.15), empty without zones of resistance
+List<scalar> projection::resists(scalar dt) const
+{
+    if (!zones_) return {};
+    List<scalar> of(zones_->chi());
+    for (scalar& chi : of) chi *= dt / c_.rho;
+    return of;
+}
+
 // Solves for {u, v, w, p}, and books the energies and volumes of the step
 void projection::solve(const stencil& s, scalar dt)
 {
@@ -186,7 +197,8 @@ void projection::solve(const stencil& s, scalar dt)
     if (!c_.structure) checkPushed();
     hydrostatic_.take(cloud);  // (1.9)
     addSlope(-1, cloud.state.get(entries::pressureSlope, vector::Zero()));
-    c_.time.stages.in("operators", [&] { step_.setup(cloud, s, *c_.kernel); });  // (6.4)
+    c_.time.stages.in("operators",
+                      [&] { step_.setup(cloud, s, *c_.kernel, resists(dt)); });  // (6.4)
     const List<scalar> q = sources_.sum(cloud.n(), dt);                          // q of (6.2)
     List<vec4> spring;
     c_.time.stages.in("velocity",  // (6.1)
@@ -215,6 +227,7 @@ void projection::begin(scalar t, scalar dt)
     slope_ = c_.walls->pressureSlope();
     energy_.begin(time_.startPlaces(cloud));
     beginMemory(time_, 0);
+    setResistance();  // (1.10)
     time_.begin(cloud);
 }
 
@@ -239,6 +252,7 @@ word projection::attempt(scalar t, scalar dt)
     time_.end(cloud, energy_);                                                           // (8.42)
     if (const word reason = tooRough(time_, dt, mean_); !reason.empty()) return reason;  // (8.44)
 
+    growThrombus(dt);                    // (1.13)
     c_.followOpen(step_.viscous(), dt);  // strips follow the fluid, theory 4.2
     shift(shifting_, dt);                // with the present neighbours, (8.30) to (8.36)
     move(time_, mean_);                  // (8.42) with u_b for F

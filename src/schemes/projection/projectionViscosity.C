@@ -42,9 +42,12 @@ public:
         laplacian_.of(u_, lap_);
         parallelFor(cloud_.n(), [&](label begin, label end) {
             for (label i = begin; i < end; ++i)
+            {
+                const bool solved = !cloud_.uFixed[i];
+                const scalar own = solved ? laplacian_.own(i) : 1;
                 for (int c = 0; c < 4; ++c)
-                    y[4 * i + c] =
-                        x[4 * i + c] - (c < 3 && !cloud_.uFixed[i] ? dtNu_ * lap_[i][c] : 0);
+                    y[4 * i + c] = own * x[4 * i + c] - (c < 3 && solved ? dtNu_ * lap_[i][c] : 0);
+            }
         });
     }
 
@@ -58,11 +61,12 @@ private:
 class viscousDiagonal : public preconditioner
 {
 public:
-    viscousDiagonal(const particleCloud& cloud, const List<scalar>& diagonal, scalar dtNu)
+    viscousDiagonal(const particleCloud& cloud, const projectionViscosity::laplacian& lap,
+                    scalar dtNu)
         : inverse_(cloud.n())
     {
         for (label i = 0; i < cloud.n(); ++i)
-            inverse_[i] = cloud.uFixed[i] ? 1 : 1 / (1 - dtNu * diagonal[i]);
+            inverse_[i] = cloud.uFixed[i] ? 1 : 1 / (lap.own(i) - dtNu * lap.diagonal[i]);
     }
     void apply(const List<scalar>& r, List<scalar>& z) const override
     {
@@ -109,8 +113,7 @@ void projectionViscosity::solve(particleCloud& cloud, const laplacian& lap, cons
         }
     }
     const viscousOperator rows(cloud, lap, dtNu);
-    const solverPerformance result =
-        solver_->solve(rows, viscousDiagonal(cloud, lap.diagonal, dtNu), b, x);
+    const solverPerformance result = solver_->solve(rows, viscousDiagonal(cloud, lap, dtNu), b, x);
     result.print();
     if (!result.converged && !(result.finalResidual < 1e-3))
         throw notConverged(

@@ -94,6 +94,7 @@ TEST_CASE(
     CHECK_ERROR(begin("outlet resistence;"), "resistance", 0);
     CHECK_ERROR(begin("outlet resistance; resistance -1;"), "resistance", 0);
     CHECK_ERROR(begin("resistance 1;"), "resistance", 0);  // without effect
+    CHECK_ERROR(begin("outlet nonReflecting; waveSpeed -1;"), "waveSpeed", 0);
 }
 
 // Plug flow as above into a Windkessel, both equations by the implicit Euler rule:
@@ -129,4 +130,52 @@ TEST_CASE(
                 CHECK(std::abs(kept.at(2) - stored) < 0.03 * P);
             }
         }
+}
+
+TEST_CASE("an end without reflection is a resistance rho c/A, of the whole face of all images")
+{
+    constexpr scalar c = 3, dt = 0.01;
+    for (const word coupling : {"projection", "monolithic"})
+    {
+        CAPTURE(coupling);
+        const auto run = [&](const word& outlet, const word& low) {
+            boxCase box = channel(coupling, 1);
+            box.patch[boxCase::right] = "type open; p 0; outlet " + outlet;
+            box.patch[boxCase::bottom] = low;
+            runningBox r(box, "nonReflecting");
+            r.run(dt, 10);
+            return flow(r.c);
+        };
+        const scalar H = channel(coupling, 1).height();
+        const word waves = "nonReflecting; waveSpeed " + str(c, 17) + ";";
+        const scalar Q = run(waves, slips);
+        CHECK(Q ==
+              relative(run("resistance; resistance " + str(rho * c / H, 17) + ";", slips), 1e-9));
+        CHECK(run(waves, "type symmetryPlane;") == relative(2 * Q, 0.01));
+    }
+}
+
+// Slow flow out of a box at the pressure P through three outlets: each has the flow that it alone would have
+TEST_CASE("outlets of different kinds in one case")
+{
+    constexpr scalar R = 4e5, Z = 1e5, D = 2e5, c = 5, dt = 0.05;
+    for (const word coupling : {"projection", "monolithic"})
+    {
+        CAPTURE(coupling);
+        boxCase box = channel(coupling, 1);
+        box.mu = 1e-3;
+        box.patch = {"type open; p 2; backflow 0;",
+                     "type open; p 0; outlet nonReflecting; waveSpeed " + str(c, 17) + ";",
+                     "type open; p 0; outlet resistance; resistance " + str(R, 17) + ";",
+                     "type open; p 0; outlet Windkessel; proximal " + str(Z, 17) + "; distal " +
+                         str(D, 17) + "; compliance 1e-7;"};
+        runningBox run(box, "manyOutlets");
+        run.run(dt, 20);
+        const auto out = [&](const char* face) {
+            return run.c.cloud.state.values().at(word("outlet ") + face).at(0);
+        };
+        CHECK(out("right") == relative(P * box.height() / (rho * c), 0.02));
+        CHECK(out("bottom") == relative(P / R, 0.02));
+        CHECK(out("top") == relative(P / (Z + D), 0.02));
+    }
 }
