@@ -184,6 +184,12 @@ void fsiCase::readStructure()
             "constant/structureProperties describes an elastic solid, but no "
             "particle is solid. Remove the file, or give a zone phase solid",
             properties.where());
+    makeStructure();
+    if (walls->hasCyclic()) bodies_ = freeBodies(structure->tangentPattern(), cloud.uFixed);
+}
+
+void fsiCase::makeStructure()
+{
     structureReference ref;
     ref.nDims = cloud.nDims, ref.dx = cloud.dx, ref.h = kernel->h();
     ref.support = kernel->support(), ref.rho = rho;
@@ -191,10 +197,11 @@ void fsiCase::readStructure()
     for (label i = 0; i < cloud.nSolid(); ++i)
         ref.x0.push_back(rest[i].xyz()), ref.fixed.push_back(cloud.uFixed[i]),
             ref.zone.push_back(cloud.zone[i]);
+    if (const auto free = cloud.vectors.find(restPlaces); free != cloud.vectors.end())
+        for (label i = 0; i < cloud.nSolid(); ++i) ref.rest.push_back(free->second[i].xyz());
     for (const zoneInfo& z : cloud.zones) ref.zoneNames.push_back(z.name);
     for (const structureImage& m : walls->images()) ref.images.push_back({m.R, m.t});
-    structure = structureModel::New(properties, ref);
-    if (walls->hasCyclic()) bodies_ = freeBodies(structure->tangentPattern(), cloud.uFixed);
+    structure = structureModel::New(structureProperties, ref);
 }
 
 scalar fsiCase::stepEnd(scalar now) const

@@ -133,6 +133,35 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("with a pressure the tangent has the slope of - p cof F too, and stays positive")
+{
+    for (const structureReference& ref : bodies())
+    {
+        const auto model = lagrangian(ref);
+        const List<vec4> x = shaken(ref, 0.15 * ref.dx);
+        structureReference near = ref;
+        near.support = 1.75 * ref.dx * (1 + 1e-6);
+        const referenceGradient fit(near);
+        List<scalar> p;
+        for (label k = 0; k < ref.n(); ++k) p.push_back(G * std::sin(3.0 * k));
+        blockMatrix3 K = model->tangentPattern();
+        model->assembleTangent(x, tangentKind::full, p, K);
+        const auto force = [&](const List<vec4>& y, List<vec4>& f) {
+            List<tensor> F;
+            List<vec4> turning;
+            fit.apply(y, F);
+            for (label k = 0; k < ref.n(); ++k)
+                F[k] = -p[k] * F[k].determinant() * F[k].inverse().transpose();
+            fit.forces(F, turning);
+            model->force(y, f);
+            for (label k = 0; k < ref.n(); ++k) f[k].s += turning[k].s;
+        };
+        CHECK(slopeError(*model, x, K, force) < 1e-7);
+        model->assembleTangent(x, tangentKind::positive, p, K);
+        CHECK(leastEigenvalue(dense(K)) > -1e-12);
+    }
+}
+
 TEST_CASE("a motion that no gradient sees has energy and a force against it")
 {
     for (const structureReference& ref : {latticeBlock(6, 6, 5), latticeBlock(8, 8, 0)})

@@ -132,6 +132,24 @@ void boundary::limitApproach(particleCloud& cloud, scalar gap, scalar dt) const
     if (!content_->walls.empty()) content_->guard.limitApproach(cloud, content_->walls, gap, dt);
 }
 
+List<nearWall> boundary::wallsNear(const vector& x, const vector& rest, scalar reach) const
+{
+    List<nearWall> near;
+    const wallSet& walls = content_->walls;
+    for (const wallSet::body& b : walls.bodies())
+    {
+        const bodyFrame& frame = walls.frame(b);
+        const vector X = frame.toBody(x);
+        if (b.surface->surelyFar(X)) continue;
+        const surfaceFoot f = b.surface->find(X);
+        if (!f.found || f.aside > 0 || !(-f.depth < reach)) continue;
+        const surfaceFoot then = b.surface->find(rest);
+        near.push_back({frame.turn(f.normal), frame.toSpace(f.foot),
+                        then.found ? std::max(-then.depth, scalar(0)) : reach});
+    }
+    return near;
+}
+
 // Moves the walls to the end t1 of the step, puts fluid back before them, and balances what they sweep
 label boundary::content::guardWalls(particleCloud& cloud, scalar t1)
 {

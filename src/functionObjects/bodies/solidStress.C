@@ -75,7 +75,7 @@ private:
         const particleCloud& cloud = case_.cloud;
         const List<vec4>& rest = cloud.vectors.at("x0");
         List<tensor> F, tau;
-        case_.structure->deformationGradient(cloud.x, F);
+        case_.structure->fromRest(cloud.x, F);
         case_.structure->stress(cloud.x, tau);
         particleTable t;
         for (label i = 0; i < cloud.nSolid(); ++i)

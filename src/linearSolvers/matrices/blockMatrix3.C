@@ -3,6 +3,9 @@
 
 #include "execution.H"
 
+#include <algorithm>
+#include <tuple>
+
 namespace ispf
 {
 
@@ -34,6 +37,41 @@ void blockMatrix3::apply(const List<vec4>& x, List<vec4>& y) const
 {
     parallelFor(size(), [&](label i, label e) { productRange(*this, i, e, x.data(), y.data()); });
     countPairs(label(value.size()), sizeof(std::int32_t) + sizeof(tensor));
+}
+
+blockMatrix3 blockMatrix3::with(List<entry> entries) const
+{
+    std::stable_sort(entries.begin(), entries.end(), [](const entry& a, const entry& b) {
+        return std::tie(a.row, a.column) < std::tie(b.row, b.column);
+    });
+    blockMatrix3 sum;
+    sum.diagonal = diagonal, sum.rowStart = {0};
+    const auto add = [&](std::int32_t to, const tensor& block) {
+        const bool same = label(sum.column.size()) > sum.rowStart.back() && sum.column.back() == to;
+        if (same) sum.value.back() += block;
+        else sum.column.push_back(to), sum.value.push_back(block);
+    };
+    auto next = entries.begin();
+    for (label i = 0; i < size(); ++i)
+    {
+        label k = rowStart[i];
+        while (k < rowStart[i + 1] || (next != entries.end() && next->row == i))
+        {
+            const bool own = next == entries.end() || next->row != i ||
+                             (k < rowStart[i + 1] && column[k] <= next->column);
+            if (own) add(column[k], value[k]), ++k;
+            else if (next->column == i) sum.diagonal[i] += next->value, ++next;
+            else add(std::int32_t(next->column), next->value), ++next;
+        }
+        sum.rowStart.push_back(label(sum.column.size()));
+    }
+    return sum;
+}
+
+void blockMatrix3::addScaled(scalar a, const blockMatrix3& A)
+{
+    forEach(0, label(value.size()), [&](label e) { value[e] += a * A.value[e]; });
+    forEach(0, size(), [&](label i) { diagonal[i] += a * A.diagonal[i]; });
 }
 
 }  // namespace ispf

@@ -61,7 +61,9 @@ std::array<scalar, energyLedger::nStores> energyLedger::energies(const List<vec4
         return cloud.isFree(i) ? -c_.bodyForce[cloud.zone[i]].dot(x[i].xyz()) : 0;
     };
     const scalar heights = c_.bodyForce.empty() ? 0 : sumOf(0, cloud.n(), height);
-    return {kineticNow(), c_.structure ? c_.structure->energy(x) : 0, mass * heights};
+    const scalar elasticNow =
+        (c_.structure ? c_.structure->energy(x) : 0) + (further_ ? further_(x) : 0);
+    return {kineticNow(), elasticNow, mass * heights};
 }
 
 // The energies differ from those at the end of the last step if particles were exchanged, a force has changed, or a user has

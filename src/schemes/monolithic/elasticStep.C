@@ -2,11 +2,20 @@
 #include "elasticStep.H"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ostream>
 
 namespace ispf
 {
+
+namespace
+{
+
+// Most passes of a step in which solids meet: pairs begin and end to act in it
+constexpr label contactPasses = 8;
+
+}  // namespace
 
 elasticStep::entries::entries(const dictionary& dict)
     : maxIter(dict.getInRangeOrDefault<label>("maxIter", 1, 100, 1)),
@@ -22,23 +31,31 @@ elasticStep::elasticStep(const structureModel* structure, const entries& e)
     if (structure->damps()) D_ = structure->tangentPattern();
 }
 
-void elasticStep::begin(List<vec4> x0, scalar tau)
+label elasticStep::mostPasses() const
 {
-    x0_ = std::move(x0), tau_ = tau, pass_ = 0, first_ = last_ = 0;
-    outside_.clear(), resists_.clear();
-    structure_->force(x0_, force_);
-    structure_->assembleTangent(x0_, tangentKind::positive, K_);
-    if (!structure_->damps()) return;
-    structure_->assembleDamping(x0_, D_);
-    includeDamping();
+    return contact_ ? std::max(entries_.maxIter, contactPasses) : entries_.maxIter;
 }
 
-// D is that of x_0 in all passes
-void elasticStep::includeDamping()
+void elasticStep::begin(List<vec4> x0, scalar tau, const List<scalar>& p)
 {
-    if (!structure_->damps()) return;
-    forEach(0, label(K_.value.size()), [&](label e) { K_.value[e] += D_.value[e] / tau_; });
-    forEach(0, structure_->n(), [&](label i) { K_.diagonal[i] += D_.diagonal[i] / tau_; });
+    x0_ = std::move(x0), tau_ = tau, pass_ = 0, first_ = last_ = 0;
+    outside_.clear(), resists_.clear(), contact_ = nullptr;
+    structure_->force(x0_, force_);
+    structure_->assembleTangent(x0_, tangentKind::positive, p, K_);
+    if (structure_->damps()) structure_->assembleDamping(x0_, D_);
+    if (newton()) keepResistance(p);
+    if (structure_->damps()) K_.addScaled(1 / tau_, D_);
+    start_ = force_;
+}
+
+// R of (7.17), which is that of x_0 in all passes
+void elasticStep::keepResistance(const List<scalar>& p)
+{
+    blockMatrix3 elastic = structure_->tangentPattern();
+    structure_->assembleTangent(x0_, tangentKind::positive, elastic);
+    R_ = K_;
+    R_.addScaled(-1, elastic);
+    if (structure_->damps()) R_.addScaled(1 / tau_, D_);
 }
 
 scalar elasticStep::dissipated(const List<vec4>& u) const
@@ -53,63 +70,105 @@ scalar elasticStep::dissipated(const List<vec4>& u) const
 void elasticStep::addOutside(const List<vec4>& f, const List<scalar>& D)
 {
     outside_ = f, resists_ = D;
+    forEach(0, structure_->n(), [&](label i) { force_[i].s += outside_[i].s; });
     includeOutside();
+    start_ = force_;
 }
 
 void elasticStep::includeOutside()
 {
     if (outside_.empty()) return;
     forEach(0, structure_->n(), [&](label i) {
-        force_[i].s += outside_[i].s;
         for (int a = 0; a < structure_->reference().nDims; ++a)
             K_.diagonal[i](a, a) += resists_[i] / tau_;
     });
 }
 
-// Moves the iterate to the end of the step, and returns the root of the mean square of d/A over the free solid
-scalar elasticStep::residual(const List<scalar>& z, const List<scalar>& A,
-                             const particleCloud& cloud)
+void elasticStep::addContact(const solidContact& contact, const List<vec4>& u)
+{
+    contact_ = &contact;
+    move(u);
+    contact.addTangent(x_, K_, withContact_);
+    f_.assign(x_.size(), vec4{});
+    contact.addForce(x_, f_);
+    List<vec4> Ku(x_.size());
+    withContact_.apply(u_, Ku_), K_.apply(u_, Ku);
+    forEach(0, structure_->n(),
+            [&](label i) { force_[i].s += f_[i].s + tau_ * (Ku_[i].s - Ku[i].s); });
+}
+
+// To the places where u leads
+void elasticStep::move(const List<vec4>& u)
 {
     const label n = structure_->n();
-    x_ = x0_, u_.resize(n), Ku_.resize(n);
-    for (label i = 0; i < n; ++i)
+    x_ = x0_, u_.assign(u.begin(), u.begin() + n), Ku_.resize(n);
+    forEach(0, n, [&](label i) { u_[i][3] = 0, x_[i].s += tau_ * u_[i].s; });
+}
+
+// Takes the iterate to the end of the step, and its forces
+void elasticStep::iterate(const List<scalar>& z)
+{
+    const label n = structure_->n();
+    List<vec4> u(n), Ru(n);
+    forEach(0, n, [&](label i) { u[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], 0}; });
+    move(u);
+    if (newton())
     {
-        u_[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], 0};
-        x_[i].s += tau_ * u_[i].s;
+        structure_->force(x_, f_);
+        R_.apply(u_, Ru);
+        forEach(0, n, [&](label i) { f_[i].s -= tau_ * Ru[i].s; });
+        if (!outside_.empty())
+            forEach(0, n, [&](label i) { f_[i].s += outside_[i].s - resists_[i] * u_[i].s; });
     }
-    structure_->force(x_, f_);
-    K_.apply(u_, Ku_);
-    List<vec4> Du;
-    if (structure_->damps()) Du.resize(n), D_.apply(u_, Du);
-    scalar sum = 0;
-    label nFree = 0;
-    for (label i = 0; i < n; ++i)
+    else
     {
-        if (cloud.uFixed[i]) continue;
-        simd4 d = f_[i].s - force_[i].s + tau_ * Ku_[i].s;
-        if (!outside_.empty()) d += outside_[i].s - resists_[i] * u_[i].s;
-        if (!Du.empty()) d -= Du[i].s;
-        sum += vec4{d}.xyz().squaredNorm() / (A[i] * A[i]), ++nFree;
+        f_ = start_;
+        K_.apply(u_, Ru);
+        forEach(0, n, [&](label i) { f_[i].s -= tau_ * Ru[i].s; });
     }
-    return std::sqrt(sum / std::max<label>(nFree, 1));
+    if (contact_) contact_->addForce(x_, f_);
+}
+
+// K at the iterate
+void elasticStep::setTangent()
+{
+    if (newton())
+    {
+        structure_->assembleTangent(x_, tangentKind::full, K_);
+        K_.addScaled(1, R_);
+        includeOutside();
+    }
+    if (contact_) contact_->addTangent(x_, K_, withContact_);
+}
+
+// Root of the mean square of d/A over the free solid
+scalar elasticStep::residual(const List<scalar>& A, const particleCloud& cloud)
+{
+    tangent().apply(u_, Ku_);
+    const auto [sum, n] = sumsOf(0, structure_->n(), [&](label i) -> std::array<scalar, 2> {
+        if (cloud.uFixed[i]) return {};
+        const vec4 d{f_[i].s - force_[i].s + tau_ * Ku_[i].s};
+        return {d.xyz().squaredNorm() / (A[i] * A[i]), 1};
+    });
+    return std::sqrt(sum / std::max<scalar>(n, 1));
 }
 
 bool elasticStep::again(const List<scalar>& z, const List<scalar>& A, const particleCloud& cloud,
                         scalar least)
 {
-    last_ = residual(z, A, cloud);
+    iterate(z);
+    last_ = residual(A, cloud);
     if (++pass_ == 1) first_ = last_;
-    scalar speed = 0;
-    for (size_t k = 0; k < z.size(); k += 4)
-        speed = std::max(speed, vector(z[k], z[k + 1], z[k + 2]).norm());
+    const scalar speed = largestOf(0, label(z.size() / 4), [&](label i) {
+        return vector(z[4 * i], z[4 * i + 1], z[4 * i + 2]).norm();
+    });
     const scalar limit = std::max(entries_.tolerance * speed, least);
     info() << "Newton: pass " << pass_ << ", residual " << str(last_, 3) << " m/s of "
            << str(limit, 3) << "\n";
-    if (last_ <= limit || pass_ == entries_.maxIter) return false;
-    structure_->assembleTangent(x_, tangentKind::full, K_);
-    K_.apply(u_, Ku_);
+    if (last_ <= limit || pass_ == mostPasses()) return false;
+    setTangent();
+    tangent().apply(u_, Ku_);
     forEach(0, structure_->n(), [&](label i) { force_[i].s = f_[i].s + tau_ * Ku_[i].s; });
-    includeOutside(), includeDamping();
     return true;
 }
 

@@ -14,6 +14,7 @@
 //         beta 1; multigrid {..}
 //     }
 //     shifting { ... }     densityFeedback 0;
+#include "closedGaps.H"
 #include "couplingScheme.H"
 #include "elasticStep.H"
 #include "FGMRES.H"
@@ -21,6 +22,7 @@
 #include "monolithicPreconditioner.H"
 #include "outsideWall.H"
 #include "particleShifting.H"
+#include "restSearch.H"
 #include "shiftingFrame.H"
 #include "stepReport.H"
 #include "stepSources.H"
@@ -71,8 +73,6 @@ struct monolithicEntries
 class monolithic : public couplingScheme
 {
 public:
-    explicit monolithic(fsiCase& c) : monolithic(c, monolithicEntries(c)) {}
-
     monolithic(fsiCase& c, const monolithicEntries& e)
         : couplingScheme(c),
           system_(c),
@@ -90,6 +90,9 @@ public:
         if (c.structure)
         {
             volume_ = std::make_unique<volumeConstraint>(*c.structure);
+            gaps_ = closedGaps::New(c.structureProperties);
+            contact_ = std::make_unique<solidContact>(c);
+            energy_.addElastic([this](const List<vec4>& x) { return contact_->energy(x); });
             outside_ = outsideWall::New(c.structureProperties, c.caseFolder());
         }
         addSources(e);
@@ -103,7 +106,8 @@ private:
     void addSources(const monolithicEntries& e);
     void begin(scalar t, scalar dt);
     void structureState();
-    void outsideState();
+    List<scalar> overSurface();
+    void elasticState();
     void assemble();
     List<scalar> guess() const;
     void accept(const List<scalar>& z);
@@ -124,6 +128,8 @@ private:
 
     std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
+    std::unique_ptr<solidContact> contact_;
+    std::unique_ptr<closedGaps> gaps_;      // null: fluid between solids is as elsewhere
     std::unique_ptr<outsideWall> outside_;  // null: nothing is outside the solid
     List<tensor> F_;
     volumeSources sources_;
@@ -171,21 +177,40 @@ void monolithic::structureState()
 {
     if (!c_.structure) return;
     beginMemory(time_, time_.velocitiesAhead());
-    elastic_.begin(time_.elasticStart(c_.cloud), time_.tau());
     c_.structure->deformationGradient(c_.cloud.x, F_);
     const List<isometry>& images = c_.structure->reference().images;
     surface_.initialise(c_.cloud, c_.list, F_, images, bool(outside_));
     volume_->setup(F_);
     surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
+    if (gaps_) gaps_->close(c_, surface_);
+}
+
+// p of each solid particle less the mean on the surface, for (7.16)
+List<scalar> monolithic::overSurface()
+{
+    particleCloud& cloud = c_.cloud;
+    cloud.fillGhosts(cloud.Up, false);
+    const scalar mean = surface_.meanPressure(
+        cloud.Up,
+        outside_ ? outside_->pressureAt(time_.times().pressures, system_.hydrostatic()) : nullptr);
+    List<scalar> p(cloud.nSolid());
+    forEach(0, cloud.nSolid(),
+            [&](label i) { p[i] = volume_->acts(i) ? cloud.Up[i][3] - mean : 0; });
+    return p;
 }
 
 // Call once the hydrostatic part of p is known
-void monolithic::outsideState()
+void monolithic::elasticState()
 {
-    if (!outside_) return;
-    outside_->setStep(c_, surface_, system_.hydrostatic(),
-                      {time_.tau(), time_.times().pressures, time_.elasticStart(c_.cloud)});
-    elastic_.addOutside(outside_->force(), outside_->resistance());
+    if (!c_.structure) return;
+    elastic_.begin(time_.elasticStart(c_.cloud), time_.tau(), overSurface());
+    if (outside_)
+    {
+        outside_->setStep(c_, surface_, system_.hydrostatic(),
+                          {time_.tau(), time_.times().pressures, time_.elasticStart(c_.cloud)});
+        elastic_.addOutside(outside_->force(), outside_->resistance());
+    }
+    if (!contact_->empty()) elastic_.addContact(*contact_, c_.cloud.Up);
 }
 
 // Extrapolates the change of the last step.  If the pressure rises steadily, this guess is nearer to the
@@ -301,10 +326,11 @@ void monolithic::begin(scalar t, scalar dt)
     time_.start(cloud, t, dt);
     c_.time.stages.in("neighbours", [&] { c_.updateNeighbours(time_.times()); });
     system_.setStep(t, t + dt);
+    if (contact_) contact_->find();
     energy_.begin(time_.startPlaces(cloud));
     structureState();
     system_.hydrostatic().take(cloud);
-    outsideState();
+    elasticState();
     setResistance();  // (1.10)
     time_.begin(cloud);
 }
@@ -359,7 +385,9 @@ void checkMonolithicEntries(const fsiCase& c)
 
 std::unique_ptr<couplingScheme> newMonolithic(fsiCase& c)
 {
-    return std::make_unique<monolithic>(c);
+    const monolithicEntries e(c);
+    findRest(c, e.preconditioner, e.theta, e.alpha);
+    return std::make_unique<monolithic>(c, e);
 }
 
 }  // namespace ispf

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "outsideWall.H"
-
-#include <algorithm>
+#include "knownEntries.H"
 
 namespace ispf
 {
@@ -19,21 +18,23 @@ outsideWall::outsideWall(const dictionary& dict, const word& caseFolder)
 {
     if (dict.found("pressure"))
         pressure_ = Function1::New("pressure", dict, caseFolder, dims::pressure);
-    const List<word> known = {"pressure", "stiffness", "damping"};
-    for (const word& key : dict.keys())
-        if (std::find(known.begin(), known.end(), key) == known.end())
-            dict.fail(key, "Nothing reads this entry. Valid are: " + join(known, " "));
+    refuseOthers(dict, {"pressure", "stiffness", "damping"});
+}
+
+solidSurface::pressureAt outsideWall::pressureAt(scalar t, const hydrostaticPart& hydrostatic) const
+{
+    const scalar given = pressure_ ? pressure_->value(t) : 0;
+    // the schemes solve for p less its hydrostatic part, (1.9)
+    return [given, &hydrostatic](const vector& at) { return given - hydrostatic.at(at); };
 }
 
 void outsideWall::setStep(const fsiCase& c, const solidSurface& surface,
                           const hydrostaticPart& hydrostatic, const start& s)
 {
     const particleCloud& cloud = c.cloud;
-    const scalar given = pressure_ ? pressure_->value(s.pressures) : 0;
     List<vec4> Q;
     List<tensor> P;
-    // the schemes solve for p less its hydrostatic part, (1.9)
-    surface.outsideLoads([&](const vector& at) { return given - hydrostatic.at(at); }, Q, P);
+    surface.outsideLoads(pressureAt(s.pressures, hydrostatic), Q, P);
     c.structure->gradient().forces(P, force_);
     const List<vec4>& rest = cloud.vectors.at("x0");
     resists_.assign(cloud.nSolid(), 0);

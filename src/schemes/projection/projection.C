@@ -82,10 +82,12 @@ public:
                        "entry to do. "
                        "Leave it away, or take ddtScheme Euler in system/sphSchemes");
         };
-        if (c.structureProperties.found("outside"))
-            c.structureProperties.fail("outside",
-                                       "coupling projection knows nothing outside the solid. Take "
-                                       "coupling monolithic, or surround the solid with fluid");
+        for (const auto& [entry, acts] : {std::pair<word, word>{"outside", "outside the solid"},
+                                          {"contact", "of solids in contact"},
+                                          {"prestress", "of a load at the start"}})
+            if (c.structureProperties.found(entry))
+                c.structureProperties.fail(entry, "coupling projection knows nothing " + acts +
+                                                      ". Take coupling monolithic");
         if (c.structure && c.structure->damps())
             c.structureProperties.fail(
                 "structureModel",

@@ -75,6 +75,7 @@ public:
           pairs_(fit_.neighbours())
     {
         G_ = materials_.stiffest();
+        setPrestretch();
         findActive();
         setMoments();
         tangent_ = std::make_unique<stencilTangent>(ref_, fit_, active_);
@@ -83,11 +84,15 @@ public:
                 std::make_unique<transientNetworks>(materials_, fit_, active_, ref_.volume());
     }
 
+    using structureModel::fromRest;
+    void fromRest(const List<vec4>& x, List<tensor>& F) const override;
     void force(const List<vec4>& x, List<vec4>& f) const override;
     scalar energy(const List<vec4>& x) const override;
     void stress(const List<vec4>& x, List<tensor>& tau) const override;
     blockMatrix3 tangentPattern() const override { return tangent_->pattern(); }
-    void assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const override;
+    using structureModel::assembleTangent;
+    void assembleTangent(const List<vec4>& x, tangentKind kind, const List<scalar>& p,
+                         blockMatrix3& K) const override;
     bool damps() const override { return materials_.damps(); }
     void assembleDamping(const List<vec4>& x, blockMatrix3& D) const override;
     List<label> linkCounts() const override;
@@ -96,6 +101,7 @@ public:
     solidMemory* memory() override { return networks_.get(); }
 
 private:
+    void setPrestretch();
     void findActive();
     void setMoments();
 
@@ -110,33 +116,57 @@ private:
     {
         return bond(x, k, p) + F * pairs_.separation(ref_, k, p);
     }
+    // F F0 of (7.19)
+    tensor fromRest(const tensor& F, label k) const
+    {
+        return prestretch_.empty() ? F : tensor(F * prestretch_[k]);
+    }
+    modulusMatrix materialModulus(const tensor& F, label k) const;
     bool remembers(label k) const { return networks_ && networks_->acts(k); }
-    // The first two parts of (5.19), with (5.30), and their derivative
+    // The first two parts of (5.19), with (5.30) and (7.19), and their derivative
     scalar energyOf(const tensor& F, label k) const
     {
-        return materials_.energy(F, k) + volumeOf(k).energy(F) +
+        return materials_.energy(fromRest(F, k), k) + volumeOf(k).energy(F) +
                (remembers(k) ? networks_->energy(F, k) : 0);
     }
     tensor stressOf(const tensor& F, label k) const
     {
-        tensor P = materials_.stress(F, k) + volumeOf(k).stress(F);
+        tensor P = materials_.stress(fromRest(F, k), k);
+        if (!prestretch_.empty()) P *= prestretch_[k].transpose();
+        P += volumeOf(k).stress(F);
         if (remembers(k)) P += networks_->stress(F, k);
         return P;
     }
     volumeStiffness volumeOf(label k) const { return {volumeShare * materials_.shearModulus(k)}; }
-    modulusMatrix modulus(const tensor& F, tangentKind kind, label k) const;
+    modulusMatrix modulus(const tensor& F, tangentKind kind, label k, scalar p) const;
 
     const zoneMaterials materials_;
     const scalar zeroEnergy_;        // alpha of (5.20)
     const structureReference near_;  // the solid at rest, with neighbours up to `radius`
     const referenceGradient fit_;    // F of the energy
     const referenceNeighbours& pairs_;
-    List<char> active_;    // per k: it or one of its neighbours is free
-    List<tensor> moment_;  // M_k [m^2]
-    List<scalar> star_;    // c_k of (5.20), zero where k is not active
+    List<tensor> prestretch_;  // F0 of (7.19); empty: none
+    List<char> active_;        // per k: it or one of its neighbours is free
+    List<tensor> moment_;      // M_k [m^2]
+    List<scalar> star_;        // c_k of (5.20), zero where k is not active
     std::unique_ptr<stencilTangent> tangent_;
     std::unique_ptr<transientNetworks> networks_;  // null: no material has a memory
 };
+
+void totalLagrangian::setPrestretch()
+{
+    if (ref_.rest.empty()) return;
+    List<vec4> rest;
+    for (const vector& X : ref_.rest) rest.push_back(vec4::from(X));
+    fit_.apply(rest, prestretch_);
+    for (tensor& F : prestretch_) F = F.inverse().eval();
+}
+
+void totalLagrangian::fromRest(const List<vec4>& x, List<tensor>& F) const
+{
+    structureModel::fromRest(x, F);
+    for (size_t k = 0; k < prestretch_.size(); ++k) F[k] *= prestretch_[k];
+}
 
 void totalLagrangian::findActive()
 {
@@ -220,10 +250,23 @@ void totalLagrangian::stress(const List<vec4>& x, List<tensor>& tau) const
         256);
 }
 
-// C' of (5.23)
-modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label k) const
+// That of the material at F F0, for a change of F
+modulusMatrix totalLagrangian::materialModulus(const tensor& F, label k) const
 {
-    modulusMatrix C = materials_.tangent(F, k) + volumeOf(k).tangent(F);
+    const modulusMatrix C = materials_.tangent(fromRest(F, k), k);
+    if (prestretch_.empty()) return C;
+    modulusMatrix turn = modulusMatrix::Zero();  // of dF to dF F0
+    for (int c = 0; c < 3; ++c)
+        for (int d = 0; d < 3; ++d)
+            for (int r = 0; r < 3; ++r) turn(r + 3 * c, r + 3 * d) = prestretch_[k](d, c);
+    return turn.transpose() * C * turn;
+}
+
+// C' of (5.23), with the turning force of the pressure, (7.16)
+modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label k, scalar p) const
+{
+    modulusMatrix C = materialModulus(F, k) + volumeOf(k).tangent(F);
+    if (p != 0) C -= p * cofactorDerivative(F);
     if (remembers(k)) C += networks_->tangent(F, k);
     const bool plane = ref_.nDims == 2;
     if (plane) keepPlane(C);
@@ -238,7 +281,8 @@ modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label 
     return C;
 }
 
-void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const
+void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, const List<scalar>& p,
+                                      blockMatrix3& K) const
 {
     List<tensor> F;
     fit_.apply(x, F);
@@ -247,7 +291,7 @@ void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, blo
         n(),
         [&](label begin, label end) {
             for (label k = begin; k < end; ++k)
-                if (active_[k]) C[k] = modulus(F[k], kind, k);
+                if (active_[k]) C[k] = modulus(F[k], kind, k, p.empty() ? 0 : p[k]);
         },
         64);
     tangent_->assemble(C, star_, K);

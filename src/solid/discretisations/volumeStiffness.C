@@ -11,7 +11,7 @@ tensor volumeStiffness::stress(const tensor& F) const
 }
 
 // With T = F^-T: d cof F = J [(T : dF) T - T dF^T T]
-modulusMatrix volumeStiffness::tangent(const tensor& F) const
+modulusMatrix cofactorDerivative(const tensor& F)
 {
     const scalar J = F.determinant();
     const tensor T = F.inverse().transpose();
@@ -20,9 +20,15 @@ modulusMatrix volumeStiffness::tangent(const tensor& F) const
         for (int r = 0; r < 3; ++r)
             for (int d = 0; d < 3; ++d)
                 for (int s = 0; s < 3; ++s)
-                    C(r + 3 * c, s + 3 * d) =
-                        kappa * J * ((2 * J - 1) * T(r, c) * T(s, d) - (J - 1) * T(r, d) * T(s, c));
+                    C(r + 3 * c, s + 3 * d) = J * (T(r, c) * T(s, d) - T(r, d) * T(s, c));
     return C;
+}
+
+modulusMatrix volumeStiffness::tangent(const tensor& F) const
+{
+    const tensor cofactor = F.determinant() * F.inverse().transpose();
+    const Eigen::Map<const Eigen::Matrix<scalar, 9, 1>> column(cofactor.data());
+    return kappa * (column * column.transpose() + (F.determinant() - 1) * cofactorDerivative(F));
 }
 
 }  // namespace ispf

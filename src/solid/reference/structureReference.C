@@ -57,6 +57,9 @@ void structureReference::check() const
             "The structure needs dx, h and rho above zero and a support above dx; got dx " +
             str(dx) + " h " + str(h) + " support " + str(support) + " rho " + str(rho));
     if (x0.empty()) throw fatalError("The structure has no particles");
+    if (!rest.empty() && rest.size() != x0.size())
+        throw fatalError("The structure has " + std::to_string(x0.size()) + " particles, but " +
+                         std::to_string(rest.size()) + " places without stress");
     if (!zone.empty() && zone.size() != x0.size())
         throw fatalError("The structure has " + std::to_string(x0.size()) + " particles and " +
                          std::to_string(zone.size()) + " zone numbers");

@@ -21,7 +21,9 @@ std::unique_ptr<structureModel> structureModel::New(const dictionary& dict,
     std::unique_ptr<structureModel> made;
     if (model == "springNetwork") made = newSpringNetwork(dict, ref);
     else made = newTotalLagrangian(dict, ref);
-    dict.subOrEmptyDict("outside").markAllRead();  // the coupling reads and checks it
+    // the coupling reads and checks them
+    for (const char* entry : {"outside", "contact", "prestress"})
+        dict.subOrEmptyDict(entry).markAllRead();
     dict.checkAllRead();
     return made;
 }

@@ -98,7 +98,9 @@ public:
     scalar energy(const List<vec4>& x) const override;
     void stress(const List<vec4>& x, List<tensor>& tau) const override;
     blockMatrix3 tangentPattern() const override { return pattern_.withZeros(); }
-    void assembleTangent(const List<vec4>& x, tangentKind kind, blockMatrix3& K) const override;
+    using structureModel::assembleTangent;
+    void assembleTangent(const List<vec4>& x, tangentKind kind, const List<scalar>& p,
+                         blockMatrix3& K) const override;
     List<label> linkCounts() const override;
     word description() const override { return summary_; }
 
@@ -202,7 +204,7 @@ void springNetwork<Law>::tangentRow(const List<vec4>& x, bool positive, label i,
 }
 
 template <class Law>
-void springNetwork<Law>::assembleTangent(const List<vec4>& x, tangentKind kind,
+void springNetwork<Law>::assembleTangent(const List<vec4>& x, tangentKind kind, const List<scalar>&,
                                          blockMatrix3& K) const
 {
     parallelFor(

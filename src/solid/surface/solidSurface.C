@@ -222,13 +222,24 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
         scalar* w = weight_[s].data() + start_[i];
         const pairRange row = rowOf<among::others>(*list_, i);
         forNeighbours(*list_, row, [&](pairIndex k, label j) {
-            if (fluidZone(cloud, j) != part.side) return;
-            w[k - row.first] = kernel.W((cloud.x[i].xyz() - cloud.x[j].xyz()).norm());
+            const vector way = cloud.x[j].xyz() - cloud.x[i].xyz();
+            // what is behind the particle is before the other face of a thin solid
+            if (fluidZone(cloud, j) != part.side || !(part.S.dot(way) > 0)) return;
+            w[k - row.first] = kernel.W(way.norm());
             sum += w[k - row.first];
         });
         if (sum == 0) part.side = -1;  // the particle sees no fluid: no load, no flux
         for (pairIndex q = 0; q < row.size() && sum > 0; ++q) w[q] /= sum;
     }
+}
+
+// p^ of the header
+scalar solidSurface::pressureOn(int s, label i, const List<vec4>& up) const
+{
+    const scalar* w = weight_[s].data() + start_[i];
+    const pairRange row = rowOf<among::others>(*list_, i);
+    return sumNeighbours(*list_, row, 0.0,
+                         [&](pairIndex k, label j) { return w[k - row.first] * up[j].s[3]; });
 }
 
 void solidSurface::loads(const List<vec4>& up, List<vec4>& Q, List<tensor>& P) const
@@ -246,11 +257,7 @@ void solidSurface::loads(const List<vec4>& up, List<vec4>& Q, List<tensor>& P) c
                 {
                     const sided& part = part_[s][i];
                     if (part.side < 0) continue;
-                    const scalar* w = weight_[s].data() + start_[i];
-                    const pairRange row = rowOf<among::others>(*list_, i);
-                    const scalar p = sumNeighbours(*list_, row, 0.0, [&](pairIndex k, label j) {
-                        return w[k - row.first] * up[j].s[3];
-                    });
+                    const scalar p = pressureOn(s, i, up);
                     Q[i].s += p * vec4::from(part.S).s;
                     P[i] += p * perVolume * part.S * part.e0.transpose();
                 }
@@ -273,6 +280,24 @@ void solidSurface::outsideLoads(const pressureAt& at, List<vec4>& Q, List<tensor
             P[i] += p / cloud_->volume() * part.S * part.e0.transpose();
         }
     });
+}
+
+scalar solidSurface::meanPressure(const List<vec4>& up, const pressureAt& at) const
+{
+    const auto [load, area] = sumsOf(0, cloud_->nSolid(), [&](label i) -> std::array<scalar, 2> {
+        std::array<scalar, 2> sum = {};
+        for (const int s : {0, 1})
+        {
+            const sided& part = part_[s][i];
+            if (part.side < 0 && !part.outside) continue;
+            const scalar A = part.S.norm();
+            sum[1] += A;
+            if (!part.outside) sum[0] += A * pressureOn(s, i, up);
+            else if (at) sum[0] += A * at(cloud_->x[i].xyz() + part.e);
+        }
+        return sum;
+    });
+    return area > 0 ? load / area : 0;
 }
 
 scalar solidSurface::outsideArea(label k) const

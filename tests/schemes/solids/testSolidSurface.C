@@ -137,3 +137,43 @@ TEST_CASE("the same where layers along the surface hold fewer particles than a l
                 CHECK(s.flux(zone) == relative(zone == 1 ? -1 : 1, 0.013));
             }
 }
+
+// Pressure 1 above a plate and none below it, in one zone of fluid: the load of its upper face alone
+TEST_CASE("a plate of few layers: what is behind a face does not load it")
+{
+    for (const int layers : {2, 3, 4})
+        for (const int nDims : {2, 3})
+        {
+            constexpr int side = 10, below = 6;
+            const scalar dx = 0.1;
+            shell s(nDims, dx, [&](shell& all) {
+                for (const bool solids : {true, false})
+                    for (int k = 0; k < (nDims == 3 ? side : 1); ++k)
+                        for (int j = -below; j < layers + below; ++j)
+                            for (int i = 0; i < side; ++i)
+                                if ((j >= 0 && j < layers) == solids)
+                                    all.add(dx * vector(i + 0.5, j + 0.5, nDims == 3 ? k + 0.5 : 0),
+                                            solids ? 0 : 1);
+            });
+            const particleCloud& cloud = s.cloud;
+            const List<tensor> F(cloud.nSolid(), tensor::Identity());
+            solidSurface surface;
+            surface.initialise(s.cloud, s.list, F);
+            surface.setup(cloud, s.list, *s.kernel, F);
+            List<vec4> unit(cloud.n()), Q;
+            List<tensor> P;
+            for (label i = 0; i < cloud.n(); ++i) unit[i][3] = cloud.x[i][1] > layers * dx;
+            surface.loads(unit, Q, P);
+            CAPTURE(layers);
+            for (label i = 0; i < cloud.nSolid(); ++i)
+            {
+                const vector x = cloud.x[i].xyz();
+                const auto within = [&](scalar a) { return a > 0.35 && a < 0.65; };
+                if (!within(x[0]) || (nDims == 3 && !within(x[2]))) continue;
+                const bool top = x[1] > (layers - 1) * dx;
+                // the layer next to a face has almost all of its area
+                if (top) CHECK(Q[i][1] > 0.8 * std::pow(dx, nDims - 1));
+                if (x[1] < dx) CHECK(std::abs(Q[i][1]) < 1e-12);
+            }
+        }
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "closedGaps.H"
+#include "forPairs.H"
+#include "knownEntries.H"
+#include "pairViscosity.H"
+
+#include <algorithm>
+
+namespace ispf
+{
+
+namespace
+{
+
+// Cosine of the angle between normals of surfaces that face each other, at most
+constexpr scalar opposite = -0.7;
+
+}  // namespace
+
+std::unique_ptr<closedGaps> closedGaps::New(const dictionary& structureProperties)
+{
+    if (!structureProperties.found("contact")) return nullptr;
+    return std::make_unique<closedGaps>(structureProperties.subDict("contact"));
+}
+
+closedGaps::closedGaps(const dictionary& dict)
+    : gap_(dict.getInRange("gap", 0, 3)),
+      factor_(dict.getInRangeOrDefault<scalar>("viscosity", 1, 1e6, 100))
+{
+    refuseOthers(dict, {"gap", "viscosity"});
+}
+
+// What fluid particle i has around it
+List<closedGaps::facing> closedGaps::facesOf(const fsiCase& c, const solidSurface& surface,
+                                             label i) const
+{
+    const particleCloud& cloud = c.cloud;
+    const vector x = cloud.x[i].xyz();
+    List<facing> faces;
+    forNeighbours<among::others>(c.list, i, [&](pairIndex, label j) {
+        const label k = cloud.ownerOf(j);
+        if (k < 0 || cloud.isFluid(k)) return;
+        const tensor R = j == k ? tensor(tensor::Identity()) : cloud.ruleOf(j).R;
+        surface.forSides(k, [&](const vector& S, const vector& e) {
+            const vector n = (R * S).normalized();
+            const scalar d = n.dot(x - cloud.x[j].xyz() - R * e);
+            if (d > -0.5 * cloud.dx && d < gap_ * cloud.dx) faces.push_back({k, n, d});
+        });
+    });
+    if (faces.empty()) return faces;
+    for (const nearWall& w : c.walls->wallsNear(x, x, gap_ * cloud.dx))
+        faces.push_back({-1, -w.normal, (w.foot - x).norm()});
+    return faces;
+}
+
+void closedGaps::close(fsiCase& c, const solidSurface& surface) const
+{
+    particleCloud& cloud = c.cloud;
+    List<scalar>& ratio = cloud.scalars[viscosityRatio];
+    if (!c.viscosity) ratio.assign(cloud.n(), 1);
+    const List<scalar> own(ratio);
+    for (label i = cloud.nSolid(); i < cloud.n(); ++i)
+    {
+        const List<facing> faces = facesOf(c, surface, i);
+        for (const facing& a : faces)
+            for (const facing& b : faces)
+            {
+                if (a.solid < 0 || a.normal.dot(b.normal) > opposite ||
+                    a.distance + b.distance > gap_ * cloud.dx)
+                    continue;
+                ratio[i] = factor_ * std::max(own[i], scalar(1));
+                for (const label k : {a.solid, b.solid})
+                    if (k >= 0) ratio[k] = factor_;
+            }
+    }
+}
+
+}  // namespace ispf

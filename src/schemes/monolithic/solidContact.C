@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solidContact.H"
+#include "forPairs.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+// [dx] r_ij of two particles, with a layer of fluid between them, and r_iw of a particle and a wall
+constexpr scalar pairReach = 2, wallReach = 1.5;
+// [dx] parts of one body that are nearer at rest are no strangers: their strain keeps them apart
+constexpr scalar ownBody = 3;
+
+scalar over(scalar reach, scalar distance)
+{
+    return std::max(reach - distance, scalar(0));
+}
+
+}  // namespace
+
+solidContact::solidContact(const fsiCase& c) : c_(c)
+{
+    findBodies();
+}
+
+// Sets of particles that links join
+void solidContact::findBodies()
+{
+    const blockMatrix3 pattern = c_.structure->tangentPattern();
+    const label n = c_.structure->n();
+    List<label> body(n, -1);
+    label count = 0;
+    for (label first = 0; first < n; ++first)
+    {
+        if (body[first] >= 0) continue;
+        List<label> members = {first};
+        body[first] = count;
+        for (size_t k = 0; k < members.size(); ++k)
+            for (label s = pattern.rowStart[members[k]]; s < pattern.rowStart[members[k] + 1]; ++s)
+                if (const label j = pattern.column[s]; body[j] < 0)
+                    body[j] = count, members.push_back(j);
+        ++count;
+    }
+    if (count > 1) bodyOf_ = std::move(body);
+}
+
+void solidContact::find()
+{
+    pairs_.clear(), walls_.clear();
+    for (label i = 0; i < c_.cloud.nSolid(); ++i)
+    {
+        findPairs(i);
+        if (!c_.cloud.uFixed[i]) findWalls(i);
+    }
+}
+
+// 0 for neighbours within a body.  Particles that are nearer at rest than r_ij do not repel each other there
+scalar solidContact::reachOf(label i, label j, scalar atRest) const
+{
+    const bool one = bodyOf_.empty() || bodyOf_[i] == bodyOf_[j];
+    return one && atRest < ownBody * c_.cloud.dx ? 0 : std::min(pairReach * c_.cloud.dx, atRest);
+}
+
+// k of (7.18): the shear modulus over the depth of the plane [N/m]
+scalar solidContact::stiffnessOf(label i) const
+{
+    return c_.structure->shearModulus(i) * (c_.cloud.nDims == 3 ? c_.cloud.dx : 1);
+}
+
+void solidContact::findPairs(label i)
+{
+    const particleCloud& cloud = c_.cloud;
+    const List<vector>& rest = c_.structure->reference().x0;
+    forNeighbours<among::same>(c_.list, i, [&](pairIndex, label g) {
+        const label j = cloud.ownerOf(g);
+        if (cloud.uFixed[i] && cloud.uFixed[j]) return;
+        isometry image;
+        if (g != j)
+            image.R = cloud.ruleOf(g).R, image.t = cloud.x[g].xyz() - image.R * cloud.x[j].xyz();
+        const scalar reach = reachOf(i, j, (rest[i] - image(rest[j])).norm());
+        if (reach == 0) return;
+        pairs_.push_back({i, j, image, reach, 0.5 * std::min(stiffnessOf(i), stiffnessOf(j))});
+    });
+}
+
+void solidContact::findWalls(label i)
+{
+    const scalar reach = wallReach * c_.cloud.dx;
+    const vector x = c_.cloud.x[i].xyz();
+    for (const nearWall& w : c_.walls->wallsNear(x, c_.structure->reference().x0[i], 2 * reach))
+        walls_.push_back({i, w.normal, w.foot, std::min(reach, w.atRest), stiffnessOf(i)});
+}
+
+void solidContact::addForce(const List<vec4>& x, List<vec4>& f) const
+{
+    const scalar dx = c_.cloud.dx;
+    for (const meeting& m : pairs_)
+    {
+        const vector gap = m.gap(x);
+        const scalar r = gap.norm(), in = over(m.reach, r);
+        if (in == 0) continue;
+        const vector push = m.stiffness * in * in / (dx * r) * gap;
+        f[m.i].s += vec4::from(push).s;
+        f[m.j].s -= vec4::from(m.image.R.transpose() * push).s;
+    }
+    for (const wallMeeting& w : walls_)
+    {
+        const scalar in = over(w.reach, w.distance(x));
+        f[w.i].s -= vec4::from(w.stiffness * in * in / dx * w.normal).s;
+    }
+}
+
+scalar solidContact::energy(const List<vec4>& x) const
+{
+    scalar sum = 0;
+    for (const meeting& m : pairs_)
+        sum += m.stiffness * std::pow(over(m.reach, m.gap(x).norm()), 3);
+    for (const wallMeeting& w : walls_)
+        sum += w.stiffness * std::pow(over(w.reach, w.distance(x)), 3);
+    return sum / (3 * c_.cloud.dx);
+}
+
+void solidContact::addTangent(const List<vec4>& x, const blockMatrix3& A, blockMatrix3& sum) const
+{
+    List<blockMatrix3::entry> entries;
+    List<tensor> diagonal(A.diagonal);
+    const auto slope = [&](scalar stiffness, scalar in, const vector& n) {
+        return tensor(2 * stiffness * in / c_.cloud.dx * n * n.transpose());
+    };
+    for (const meeting& m : pairs_)
+    {
+        const vector gap = m.gap(x);
+        const tensor H = slope(m.stiffness, over(m.reach, gap.norm()), gap.normalized());
+        const tensor& R = m.image.R;
+        diagonal[m.i] += H, diagonal[m.j] += R.transpose() * H * R;
+        entries.push_back({m.i, m.j, -H * R}), entries.push_back({m.j, m.i, -R.transpose() * H});
+    }
+    for (const wallMeeting& w : walls_)
+        diagonal[w.i] += slope(w.stiffness, over(w.reach, w.distance(x)), w.normal);
+    sum = A.with(std::move(entries));
+    for (label i = 0; i < A.size(); ++i) sum.diagonal[i] += diagonal[i] - A.diagonal[i];
+}
+
+}  // namespace ispf
