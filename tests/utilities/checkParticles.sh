@@ -40,6 +40,7 @@ done
 grep -q '^Particles OK\.$' log.4 && ! grep -q '^ *\*' log.4 || fail "a sound case: $(cat log.4)"
 grep -q '^   \*Layers' log.3 && grep -q '^Particles OK\.$' log.3 || fail "one layer too few is a warning"
 grep -q '^Failed 1 check\.$' log.2 || fail "two layers too few"
+grep -q 'Two layers cannot bend' log.2 || fail "no reason: $(cat log.2)"
 grep -q 'Time per step .* s by the clock' log.4 && grep -q '^    Memory' log.4 || fail "no prediction"
 
 # ---- a zone's volume is its own, without what fills the strips beyond open faces -----------------------

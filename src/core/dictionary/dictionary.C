@@ -315,6 +315,13 @@ void dictionary::checkAllRead() const
     }
 }
 
+void dictionary::refuseOthers(const List<word>& known) const
+{
+    for (const word& key : keys())
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            fail(key, "Nothing reads this entry. Valid are: " + join(known, " "));
+}
+
 void dictionary::markAllRead() const
 {
     for (const dictionaryEntry& e : content_->entries) markRead(e);

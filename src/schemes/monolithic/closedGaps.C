@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "closedGaps.H"
 #include "forPairs.H"
-#include "knownEntries.H"
 #include "pairViscosity.H"
 
 #include <algorithm>
@@ -27,7 +26,7 @@ closedGaps::closedGaps(const dictionary& dict)
     : gap_(dict.getInRange("gap", 0, 3)),
       factor_(dict.getInRangeOrDefault<scalar>("viscosity", 1, 1e6, 100))
 {
-    refuseOthers(dict, {"gap", "viscosity"});
+    dict.refuseOthers({"gap", "viscosity"});
 }
 
 // What fluid particle i has around it

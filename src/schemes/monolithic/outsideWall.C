@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "outsideWall.H"
-#include "knownEntries.H"
 
 namespace ispf
 {
@@ -18,7 +17,7 @@ outsideWall::outsideWall(const dictionary& dict, const word& caseFolder)
 {
     if (dict.found("pressure"))
         pressure_ = Function1::New("pressure", dict, caseFolder, dims::pressure);
-    refuseOthers(dict, {"pressure", "stiffness", "damping"});
+    dict.refuseOthers({"pressure", "stiffness", "damping"});
 }
 
 solidSurface::pressureAt outsideWall::pressureAt(scalar t, const hydrostaticPart& hydrostatic) const

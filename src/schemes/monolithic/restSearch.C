@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "restSearch.H"
 #include "FGMRES.H"
-#include "knownEntries.H"
 #include "elasticStep.H"
 #include "outsideWall.H"
 #include "solidState.H"
@@ -36,7 +35,7 @@ public:
           maxIter_(dict.getInRangeOrDefault<label>("maxIter", 1, 10000, 100)),
           dict_(dict)
     {
-        refuseOthers(dict, {"pressures", "tolerance", "maxIter"});
+        dict.refuseOthers({"pressures", "tolerance", "maxIter"});
     }
     void run();
 

@@ -150,14 +150,14 @@ TEST_CASE(
 {
     const word material =
         "structureModel totalLagrangian; material { type neoHookean; G " + str(G) + "; }";
-    for (const auto& [layers, tip] :
-         {std::pair(2, 1.2), std::pair(3, 1.14), std::pair(4, 1.07), std::pair(6, 1.02)})
+    for (const auto& [layers, tip] : {std::pair(3, 1.126), std::pair(4, 1.07), std::pair(6, 1.02)})
     {
         CAPTURE(layers);
-        MESSAGE(layers << " " << bend({layers, 5 * layers, 7.0 / layers}, material).tip);
         CHECK(bend({layers, 5 * layers, 7.0 / layers}, material).tip ==
               doctest::Approx(tip).epsilon(0.015));
     }
+    // two layers cannot bend: both have the same strain across the strip, and each keeps its volume
+    CHECK(bend({2, 10, 3.5}, material).tip < 0.1);
 }
 
 TEST_CASE("deep in a clamp the solid has no pressure, and none is needed")

@@ -52,7 +52,10 @@ void checkLayers(const fsiCase& c, findings& found)
                             " are recommended (support/dx rounded up, and one): refine dx";
         if (n >= wanted) found.fine(text);
         else if (n == wanted - 1) found.warn(advice);
-        else found.fail(advice);
+        else
+            found.fail(advice + (n > 2 ? ""
+                                       : ". Two layers cannot bend: they thin and widen "
+                                         "together, and each keeps its volume"));
     }
 }
 
