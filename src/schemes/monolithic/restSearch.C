@@ -4,6 +4,7 @@
 #include "elasticStep.H"
 #include "outsideWall.H"
 #include "solidState.H"
+#include "stepSources.H"
 #include "solidMemory.H"
 
 #include <algorithm>
@@ -15,10 +16,10 @@ namespace ispf
 namespace
 {
 
+// theta of the passes: C of the last pressure leaves little, and what it forgets converges
+constexpr scalar memory = 0.5;
 // Largest change of the deformation gradient in a pass
 constexpr scalar longestPass = 0.2;
-// Strain of a pass from which on the reference moves too: it stays what it is up to some of this
-constexpr scalar nearly = 2e-3;
 // Times that a shear wave takes along the solid: a step so long has no inertia
 constexpr scalar longStep = 100;
 
@@ -26,12 +27,12 @@ class restSearch
 {
 public:
     restSearch(fsiCase& c, const dictionary& dict, const monolithicPreconditioner::entries& e,
-               scalar memory)
+               scalar forgotten)
         : c_(c),
           preconditioner_(e),
-          memory_(memory),
+          forgotten_(forgotten),
           pressure_(pressures(dict.subOrEmptyDict("pressures"))),
-          tolerance_(dict.getInRangeOrDefault("tolerance", 1e-12, 1e-2, 1e-5)),
+          tolerance_(dict.getInRangeOrDefault("tolerance", 1e-12, 1e-2, 1e-4)),
           maxIter_(dict.getInRangeOrDefault<label>("maxIter", 1, 10000, 100)),
           dict_(dict)
     {
@@ -43,16 +44,16 @@ private:
     List<scalar> pressures(const dictionary& dict) const;
     void hold();
     scalar stepLength() const;
+    void setSteadyVolume(const coupledSystem& system, List<scalar> z);
     scalar pass();
     scalar moveRest(const List<scalar>& z, scalar tau);
 
     fsiCase& c_;
     monolithicPreconditioner::entries preconditioner_;
-    scalar memory_;          // t of (7.21)
+    scalar forgotten_;       // (1 - theta)/volumeFeedback of (7.21)
     List<scalar> pressure_;  // per zone [Pa]
     scalar tolerance_;
     label maxIter_;
-    bool steady_ = false;  // the last passes: places of the reference move too, (7.21)
     const dictionary& dict_;
 };
 
@@ -107,12 +108,22 @@ scalar restSearch::moveRest(const List<scalar>& z, scalar tau)
     const auto most = [&](const auto& size) { return largestOf(0, n, size); };
     const scalar gradient = most([&](label i) { return change[i].norm(); });
     const scalar share = std::min(scalar(1), longestPass / std::max(gradient, scalar(1e-30)));
-    List<vec4>& reference = c_.cloud.vectors.at("x0");
-    forEach(0, n, [&](label i) {
-        rest[i].s -= vec4::from(share * toRest[i] * d[i].xyz()).s;
-        if (steady_) reference[i].s -= share * d[i].s;
-    });
+    forEach(0, n, [&](label i) { rest[i].s -= vec4::from(share * toRest[i] * d[i].xyz()).s; });
     return most([&](label i) { return scalar(0.5 * (change[i] + change[i].transpose()).norm()); });
+}
+
+// (7.21), from the continuity rows of p alone, - C p, which are scaled by dx
+void restSearch::setSteadyVolume(const coupledSystem& system, List<scalar> z)
+{
+    const particleCloud& cloud = c_.cloud;
+    for (label i = 0; i < cloud.n(); ++i)
+        for (int a = 0; a < 3; ++a) z[4 * i + a] = 0;
+    List<scalar> rows(z.size());
+    system.apply(z, rows);
+    List<scalar>& aim = c_.cloud.scalars[steadyVolume];
+    aim.assign(cloud.n(), 1);
+    for (label i = 0; i < cloud.nSolid(); ++i)
+        if (system.rows().acts(i)) aim[i] += forgotten_ * system.dt() * rows[4 * i + 3] / cloud.dx;
 }
 
 scalar restSearch::pass()
@@ -151,16 +162,18 @@ scalar restSearch::pass()
     preconditioner.setup();
 
     List<scalar> q(cloud.n(), 0);
-    if (steady_)
-        forEach(0, cloud.nSolid(), [&](label i) { q[i] = (1 - F[i].determinant()) / tau; });
+    List<tensor> toRest;
+    c_.structure->gradient().apply(cloud.vectors.at(restPlaces), toRest);
+    forEach(0, cloud.nSolid(), [&](label i) { q[i] = (toRest[i].determinant() - 1) / tau; });
     List<scalar> b, z(4 * cloud.n());
     for (label i = 0; i < cloud.n(); ++i) z[4 * i + 3] = cloud.Up[i][3];
-    system.rightHandSide(steady_ ? memory_ : 1, elastic.force(), q, b);
+    system.rightHandSide(memory, elastic.force(), q, b);
     solverControls controls;
     controls.tolerance = 0, controls.relTol = 1e-6, controls.absTol = 0, controls.maxIter = 500;
     FGMRES solver(controls, "rest", controls.maxIter);
     solver.solve(system, preconditioner, b, z).print();
     for (label i = 0; i < cloud.nSolid(); ++i) cloud.Up[i][3] = volume.acts(i) ? z[4 * i + 3] : 0;
+    setSteadyVolume(system, z);
     return moveRest(z, tau);
 }
 
@@ -180,10 +193,11 @@ void restSearch::run()
         c_.makeStructure();
         info() << "Prestress: pass " << k << ", strain " << str(strain, 3) << "\n";
         if (!std::isfinite(strain)) break;
-        const bool found = steady_ && strain <= tolerance_;
-        steady_ = steady_ || strain < nearly;
-        if (!found) continue;
+        if (strain > tolerance_) continue;
         c_.updateNeighbours(t, t);  // with the flags of the case
+        hydrostaticPart weight(c_);
+        weight.setStep(t, t);
+        weight.giveBack(cloud);
         keepSolid(c_);
         return;
     }
@@ -205,7 +219,7 @@ void findRest(fsiCase& c, const monolithicPreconditioner::entries& e, scalar the
                                    "Springs have their rest lengths from the particles' places. "
                                    "Take structureModel totalLagrangian");
     const scalar forgets = std::min(1 - theta, volumeFeedback);
-    restSearch search(c, dict, e, forgets > 0 ? 1 - forgets / volumeFeedback : 0);
+    restSearch search(c, dict, e, forgets > 0 ? forgets / volumeFeedback : 0);
     if (!c.cloud.vectors.count(restPlaces)) search.run();
 }
 

@@ -23,6 +23,13 @@ scalar wayOf(const timeScheme& time, scalar dt)
 
 }  // namespace
 
+scalar solidFeedback::rate(label i, scalar dt) const
+{
+    const auto steady = cloud_.scalars.find(steadyVolume);
+    const scalar aim = steady == cloud_.scalars.end() ? 1 : steady->second[i];
+    return -alpha_ * (F_[i].determinant() - aim) / dt;
+}
+
 void solidFeedback::addTo(List<scalar>& q, scalar dt)
 {
     forEach(0, cloud_.nSolid(), [&](label i) { q[i] += rate(i, dt); });
