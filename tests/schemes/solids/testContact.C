@@ -95,6 +95,56 @@ scalar lowest(const particleCloud& cloud, int axis)
     return least;
 }
 
+// Two slabs between cyclic sides, endless along x, with one layer of fluid between them
+class slabs
+{
+public:
+    static constexpr int width = 12, layers = 3, below = 4;
+
+    explicit slabs(const word& structure = "") : files_("contactSlabs")
+    {
+        files_.fill(width, 2 * below + 2 * layers + 1, dx);
+        particleTable all = files_.particles(), &t = files_.particles();
+        t.x.clear(), t.integers["zone"].clear();
+        for (const int zone : {0, 1, 2})
+            for (const vector& x : all.x)
+                if (zoneOf(x) == zone) t.x.push_back(x), t.integers["zone"].push_back(zone);
+        t.attributes["zones"] = "lower upper fluid", t.attributes["phases"] = "solid solid fluid";
+        files_.control =
+            "startTime 0; endTime 100; deltaT 1; writeControl timeStep; writeInterval 1e6;";
+        files_.solution = "coupling monolithic;", files_.properties = "rho 1000; mu 1e-2;";
+        files_.boundary =
+            "sides { type cyclic; point (0 0 0); separation (" + str(width * dx, 17) +
+            " 0 0); } floor { type wall; surface plane; point (0 0 0); normal (0 -1 0); }";
+        files_.write();
+        setContent(
+            files_.path() + "/constant/structureProperties",
+            "structureModel totalLagrangian; material { type neoHookean; G 1e4; } " + structure);
+        time_ = std::make_unique<Time>(files_.path());
+        c = std::make_unique<fsiCase>(*time_);
+    }
+    // Moves the upper slab so that the layers that face each other are `apart` [dx], shifted by `along` [dx]
+    void put(scalar apart, scalar along)
+    {
+        const List<vec4>& rest = c->cloud.vectors.at("x0");
+        for (label i = 0; i < c->cloud.nSolid(); ++i)
+            if (c->cloud.zone[i] == 1)
+                c->cloud.x[i].setXyz(rest[i].xyz() + dx * vector(along, apart - 2, 0));
+        c->updateNeighbours(0, 0);
+    }
+    std::unique_ptr<fsiCase> c;
+
+private:
+    static int zoneOf(const vector& x)
+    {
+        const int j = int(x[1] / dx) - below;
+        return j >= 0 && j < layers ? 0 : j > layers && j <= 2 * layers ? 1 : 2;
+    }
+    caseOnDisk files_;
+    capturedLog log_;
+    std::unique_ptr<Time> time_;
+};
+
 }  // namespace
 
 TEST_CASE("two blocks are pressed together, rest on a layer of fluid, and part again")
@@ -106,17 +156,15 @@ TEST_CASE("two blocks are pressed together, rest on a layer of fluid, and part a
     Time time(scene.files.path());
     fsiCase c(time);
     const auto scheme = couplingScheme::New(c);
-    scalar least = 1e30, atRest = 0;
+    scalar least = 1e30;
     for (int k = 0; k < 500; ++k)
     {
         runSteps(c, *scheme, dt, 1);
         least = std::min(least, apart(c.cloud));
     }
-    atRest = apart(c.cloud);
     CHECK(least > 1.5);
-    CHECK(atRest < 2);
+    CHECK(apart(c.cloud) < 2);
     CHECK(c.cloud.maxSpeed() < 1e-3);
-    // 96 Pa over 1e4 Pa: the layers' distance at which (7.18) has this pressure
     runSteps(c, *scheme, dt, 250);
     CHECK(apart(c.cloud) > 3);
 }
@@ -137,4 +185,94 @@ TEST_CASE("a block falls to a wall, and one to its image beyond a symmetry plane
     CHECK(floor > 1);
     CHECK(lowest(c.cloud, 1) < 1.5);
     CHECK(plane > 0.75);
+}
+
+TEST_CASE("layers that slide over each other: what holds them back, over what presses them")
+{
+    slabs s;
+    // for distances at which a layer carries 0.1 G and 0.01 G
+    for (const auto& [apart, load, most] :
+         {std::tuple(1.695, 0.1, 0.035), std::tuple(1.88, 0.01, 0.17)})
+        for (const scalar along : {0.0, 0.1, 0.25, 0.4, 0.5, 0.8})
+        {
+            s.put(apart, along);
+            solidContact contact(*s.c);
+            contact.find();
+            const particleCloud& cloud = s.c->cloud;
+            List<vec4> f(cloud.nSolid());
+            contact.addForce(cloud.x, f);
+            vector upper = vector::Zero(), lower = vector::Zero();
+            for (label i = 0; i < cloud.nSolid(); ++i)
+                (cloud.zone[i] == 1 ? upper : lower) += f[i].xyz() / (slabs::width * dx * G);
+            CAPTURE(apart);
+            CAPTURE(along);
+            CHECK((upper + lower).norm() < 1e-12);
+            CHECK(upper[1] == relative(load, 0.5));
+            CHECK(std::abs(upper[0]) < most * upper[1]);
+        }
+}
+
+TEST_CASE(
+    "contact: forces are the slope of the energy, the tangent that of the forces but for turning")
+{
+    slabs s;
+    s.put(1.4, 0.3);
+    solidContact contact(*s.c);
+    contact.find();
+    CHECK(!contact.empty());
+    List<vec4> x(s.c->cloud.x.begin(), s.c->cloud.x.begin() + s.c->cloud.nSolid()), f(x.size()),
+        u(x.size()), Ku(x.size());
+    contact.addForce(x, f);
+    scalar most = 0, error = 0;
+    for (size_t i = 0; i < x.size(); ++i)
+        for (const int a : {0, 1})
+        {
+            const scalar at = x[i][a], step = 1e-5 * dx;
+            x[i][a] = at + step;
+            const scalar up = contact.energy(x);
+            x[i][a] = at - step;
+            const scalar down = contact.energy(x);
+            x[i][a] = at;
+            most = std::max(most, std::abs(f[i][a]));
+            error = std::max(error, std::abs(f[i][a] + (up - down) / (2 * step)));
+        }
+    CHECK(most > 0);
+    CHECK(error < 1e-6 * most);
+    // along the line of the pairs, here across the layers: all of the upper slab moves down
+    s.put(1.4, 0);
+    contact.find();
+    x.assign(s.c->cloud.x.begin(), s.c->cloud.x.begin() + s.c->cloud.nSolid());
+    blockMatrix3 K;
+    contact.addTangent(x, s.c->structure->tangentPattern(), K);
+    CHECK(K.size() == label(x.size()));
+    for (label i = 0; i < K.size(); ++i)
+    {
+        tensor sum = K.diagonal[i];
+        for (label k = K.rowStart[i]; k < K.rowStart[i + 1]; ++k) sum += K.value[k];
+        CHECK(sum.norm() < 1e-9 * G);  // a motion of all meets nothing
+        CHECK(K.diagonal[i](1, 1) >= 0);
+    }
+}
+
+TEST_CASE(
+    "contact { gap .. }: the fluid between surfaces that face each other is more viscous, no other")
+{
+    slabs s("contact { gap 1.5; viscosity 50; }");
+    const auto scheme = couplingScheme::New(*s.c);
+    runSteps(*s.c, *scheme, 1e-3, 1);
+    const particleCloud& cloud = s.c->cloud;
+    const List<scalar>& ratio = cloud.scalars.at("viscosityRatio");
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        const int j = int(cloud.x[i][1] / dx) - slabs::below;
+        CHECK(ratio[i] == (j >= slabs::layers - 1 && j <= slabs::layers + 1 ? 50 : 1));
+    }
+    slabs without;
+    const auto other = couplingScheme::New(*without.c);
+    runSteps(*without.c, *other, 1e-3, 1);
+    CHECK(without.c->cloud.scalars.count("viscosityRatio") == 0);
+    CHECK_THROWS_WITH(couplingScheme::New(*slabs("contact { gap 4; }").c),
+                      doctest::Contains("gap"));
+    CHECK_THROWS_WITH(couplingScheme::New(*slabs("contact { gap 1; slit 2; }").c),
+                      doctest::Contains("Valid are: gap viscosity"));
 }
