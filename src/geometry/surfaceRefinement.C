@@ -2,6 +2,7 @@
 #include "surfaceRefinement.H"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace ispf
@@ -10,74 +11,91 @@ namespace ispf
 namespace
 {
 
-class halving
+class division
 {
 public:
-    halving(triSurface& s, scalar longest) : s_(s), longest_(longest) {}
+    division(triSurface& s, scalar longest) : s_(s), longest_(longest) {}
 
-    // Splits every triangle with long edges once; false if there was none
+    // Divides every triangle with long edges once; false if there was none.  The longer two edges are divided at once, into
+    // as many parts as they need: halves of halves of a needle would be three times as many per pass, not twice
     bool pass()
     {
-        triangles_.clear(), patch_.clear(), middle_.clear();
-        for (label t = 0; t < s_.size(); ++t) split(t);
+        triangles_.clear(), patch_.clear(), inner_.clear();
+        for (label t = 0; t < s_.size(); ++t) divide(t);
         const bool changed = triangles_.size() != s_.triangles.size();
         s_.triangles.swap(triangles_), s_.patch.swap(patch_);
         return changed;
     }
 
 private:
-    scalar length(label a, label b) const { return (s_.nodes[b] - s_.nodes[a]).norm(); }
-    bool isLong(label a, label b) const { return length(a, b) > longest_; }
+    using chain = List<label>;
 
-    label middle(label a, label b)
+    scalar length(label a, label b) const { return (s_.nodes[b] - s_.nodes[a]).norm(); }
+
+    // Nodes from a to b, the same for all triangles at this edge
+    chain between(label a, label b)
     {
-        const auto [at, isNew] = middle_.try_emplace(std::minmax(a, b), label(s_.nodes.size()));
-        if (isNew) s_.nodes.push_back(0.5 * (s_.nodes[a] + s_.nodes[b]));
-        return at->second;
+        const auto [at, isNew] = inner_.try_emplace(std::minmax(a, b));
+        chain& inner = at->second;
+        const label parts = isNew ? label(std::ceil(length(a, b) / longest_)) : 0;
+        const vector low = s_.nodes[std::min(a, b)], high = s_.nodes[std::max(a, b)];
+        for (label k = 1; k < parts; ++k)
+        {
+            inner.push_back(label(s_.nodes.size()));
+            s_.nodes.push_back(low + scalar(k) / scalar(parts) * (high - low));
+        }
+        chain whole = {std::min(a, b)};
+        whole.insert(whole.end(), inner.begin(), inner.end());
+        whole.push_back(std::max(a, b));
+        if (a > b) std::reverse(whole.begin(), whole.end());
+        return whole;
     }
 
     void add(label a, label b, label c, label patch)
     {
-        triangles_.push_back({a, b, c}), patch_.push_back(patch);
+        if (a != b && b != c && c != a) triangles_.push_back({a, b, c}), patch_.push_back(patch);
     }
 
-    // Turns the triangle so that its long edges come first: a-b if there is one, a-b and b-c if there are two
-    void split(label t)
+    // Triangles between two chains, across the shorter diagonals
+    void zip(const chain& a, const chain& b, label patch)
+    {
+        for (size_t i = 0, j = 0; i + 1 < a.size() || j + 1 < b.size();)
+        {
+            const bool mayA = i + 1 < a.size(), mayB = j + 1 < b.size();
+            if (mayA && (!mayB || length(a[i + 1], b[j]) <= length(a[i], b[j + 1])))
+                add(a[i], a[i + 1], b[j], patch), ++i;
+            else add(a[i], b[j + 1], b[j], patch), ++j;
+        }
+    }
+
+    // From the corner opposite the shortest edge towards it
+    void divide(label t)
     {
         triSurface::triangle f = s_.triangles[t];
-        const label patch = s_.patch[t];
-        const auto cut = [&](int k) { return isLong(f[k % 3], f[(k + 1) % 3]); };
-        const int n = cut(0) + cut(1) + cut(2);
-        for (int k = 0; k < 2 && (n == 1 || n == 2) && !(cut(0) && !cut(2)); ++k)
+        for (int k = 0;
+             k < 2 && !(length(f[1], f[2]) <= std::min(length(f[0], f[1]), length(f[2], f[0])));
+             ++k)
             f = {f[1], f[2], f[0]};
-        const auto [a, b, c] = f;
-        if (n == 0) return add(a, b, c, patch);
-        const label ab = middle(a, b);
-        if (n == 1) return add(a, ab, c, patch), add(ab, b, c, patch);
-        const label bc = middle(b, c);
-        add(ab, b, bc, patch);
-        if (n == 3)
-        {
-            const label ca = middle(c, a);
-            add(a, ab, ca, patch), add(ab, bc, ca, patch), add(ca, bc, c, patch);
-        }
-        else if (length(a, bc) < length(ab, c)) add(a, ab, bc, patch), add(a, bc, c, patch);
-        else add(a, ab, c, patch), add(ab, bc, c, patch);
+        chain left = between(f[0], f[1]), right = between(f[0], f[2]);
+        const chain base = between(f[1], f[2]);
+        left.pop_back(), right.pop_back();
+        zip(left, right, s_.patch[t]);
+        zip(base, {left.back(), right.back()}, s_.patch[t]);
     }
 
     triSurface& s_;
     scalar longest_;
     List<triSurface::triangle> triangles_;
     List<label> patch_;
-    std::map<std::pair<label, label>, label> middle_;  // nodes of the edges halved in this pass
+    std::map<std::pair<label, label>, chain> inner_;  // nodes inside the edges in this pass
 };
 
 }  // namespace
 
 void refine(triSurface& surface, scalar longest)
 {
-    halving h(surface, longest);
-    while (h.pass())
+    division d(surface, longest);
+    while (d.pass())
         ;
 }
 

@@ -187,3 +187,13 @@ TEST_CASE("refining halves long edges without a crack; volume, patches and norma
     refine(s, 0.1);
     CHECK(s.triangles == fine.triangles);
 }
+
+TEST_CASE("a needle is refined into about as many triangles as its length asks for")
+{
+    triSurface s;
+    s.addPatch("");
+    s.add({0, 0, 0}, {100, 0, 0}, {0, 0.02, 0}, 0);
+    refine(s, 0.5);
+    CHECK(s.size() < 1000);
+    CHECK(s.area() == relative(1, 1e-12));
+}

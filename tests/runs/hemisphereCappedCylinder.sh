@@ -72,6 +72,11 @@ bare=$case/run/dx0.67-B-trapezoid-bare
 grep -q "buffer  *{\|^outside" "$bare/system/particleDict" "$bare/constant/boundary.full" && fail "-bare leaves a bath"
 [ "$("$bin/ispfDictionary" "$bare/constant/structureProperties" -entry outside.pressure -SI)" = 0 ] || fail "-bare: nothing is outside"
 again -paper -bare -prepare && fail "-paper -bare is accepted"
+again -prepare -neoHookean -E 2e6 || fail "-neoHookean: $(cat "$scratch/out")"
+law=$case/run/dx0.67-B-trapezoid-E2e6-neoHookean/constant/structureProperties
+[ "$("$bin/ispfDictionary" "$law" -entry material.E -SI)" = 2000000 ] || fail "-neoHookean: E $(cat "$law")"
+grep -q "^links\|^E " "$law" && fail "-neoHookean leaves springs"
+again -paper -neoHookean -prepare && fail "-paper -neoHookean is accepted"
 printf 'zone volume particles\nwall 1e-6 3957 -0.01 3\nflange 2e-7 546 0.05 3\nchamber 3e-6 9983 0 3\n' > "$bare/log.generateParticles"
 ISPF_DIR=$root ISPF_BIN=$bin "$case/validation/compare" "$bare" > /dev/null 2> "$scratch/out" || fail "compare -bare: $(cat "$scratch/out")"
 grep -q '^particlesFluid,39932$' "$bare/comparison/quantities.csv" || fail "compare -bare counts no particles"

@@ -63,6 +63,7 @@ List<functionObjectList::item> functionObjectList::read(const dictionary& functi
         if (!enabled || same != items_.end()) dict.markAllRead();
         if (!enabled) continue;
         items.push_back(same != items_.end() ? *same : make(name, dict));
+        if (mayCarry()) items.back().object->advance(case_.cloud, 0);  // those named after it may ask for its fields
         items.back().text = functions.toString(name);
     }
     return items;
@@ -98,11 +99,16 @@ void functionObjectList::adopt(List<item> items)
     carryFields();
 }
 
-// Makes the fields that function objects carry, and removes those of function objects that are there no more
+// What a run has not written cannot be made later
+bool functionObjectList::mayCarry() const
+{
+    return !case_.time.postProcessing() || case_.time.timeIndex() == 0;
+}
+
+// Removes the fields of function objects that are there no more
 void functionObjectList::carryFields()
 {
-    // what a run has not written cannot be made later
-    if (case_.time.postProcessing() && case_.time.timeIndex() > 0) return;
+    if (!mayCarry()) return;
     particleCloud& cloud = case_.cloud;
     List<word> wanted;
     for (item& i : items_)
@@ -116,7 +122,6 @@ void functionObjectList::carryFields()
         cloud.scalars.erase(field), cloud.vectors.erase(field);
         cloud.state.erase(entries::carried(field));
     }
-    for (item& i : items_) i.object->advance(cloud, 0);
     for (const word& field : wanted) cloud.state.set(entries::carried(field), 1);
 }
 
