@@ -42,6 +42,13 @@ annotatedCase
 sed -i -E '1,/^\/\/ with structureModel totalLagrangian/d; /^\/\/ other materials/,$d; s|^( *)//((zeroEnergy\|radius\|material\|type\|E) .*\|[{}])|\1\2|' constant/structureProperties
 echo "structureModel totalLagrangian;" >> constant/structureProperties
 place; solved; grep -q "structure: totalLagrangian, neoHookean" log || fail "totalLagrangian: $(tail -n 5 log)"
+annotatedCase
+sed -i -E '/^\/\/contact/,/^\/\/\}/ s|^( *)//|\1|' constant/structureProperties
+place; solved
+annotatedCase
+{ echo "structureModel totalLagrangian; material { type neoHookean; E 1e4; }"
+  sed -nE '/^\/\/prestress/,/^\/\/\}/ s|^( *)//|\1|p' "$annotated/structureProperties"; } > constant/structureProperties
+place; solved; grep -q "^Prestress: pass" log || fail "prestress: $(tail -n 5 log)"
 while read -r line; do
     annotatedCase
     echo "structureModel totalLagrangian; ${line#//}" > constant/structureProperties
