@@ -72,6 +72,8 @@ private:
     void divide(label t)
     {
         triSurface::triangle f = s_.triangles[t];
+        const scalar most = std::max({length(f[0], f[1]), length(f[1], f[2]), length(f[2], f[0])});
+        if (most <= longest_) return add(f[0], f[1], f[2], s_.patch[t]);
         for (int k = 0;
              k < 2 && !(length(f[1], f[2]) <= std::min(length(f[0], f[1]), length(f[2], f[0])));
              ++k)

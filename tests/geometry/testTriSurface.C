@@ -161,7 +161,7 @@ TEST_CASE("a half model's cut face is dropped and its images complete it")
     CHECK(withImages(s, {half}, 0.5).size() < whole.size());
 }
 
-TEST_CASE("refining halves long edges without a crack; volume, patches and normals stay")
+TEST_CASE("refining divides long edges without a crack; volume, patches and normals stay")
 {
     triSurface s = box({0, 0, 0}, {1, 0.3, 0.05}, "flat");
     s.append(sphere({0, 0, 5}, 0.4, 1));
