@@ -82,12 +82,14 @@ public:
                        "entry to do. "
                        "Leave it away, or take ddtScheme Euler in system/sphSchemes");
         };
-        for (const auto& [entry, acts] : {std::pair<word, word>{"outside", "outside the solid"},
-                                          {"contact", "of solids in contact"},
-                                          {"prestress", "of a load at the start"}})
-            if (c.structureProperties.found(entry))
-                c.structureProperties.fail(entry, "coupling projection knows nothing " + acts +
-                                                      ". Take coupling monolithic");
+        const dictionary& solid = c.structureProperties;
+        const auto unknown = [&](const word& key, const word& what) {
+            solid.fail(key,
+                       "coupling projection knows nothing " + what + ". Take coupling monolithic");
+        };
+        if (solid.found("outside")) unknown("outside", "outside the solid");
+        if (solid.found("contact")) unknown("contact", "of solids in contact");
+        if (solid.found("prestress")) unknown("prestress", "of a load at the start");
         if (c.structure && c.structure->damps())
             c.structureProperties.fail(
                 "structureModel",
