@@ -31,7 +31,7 @@ constexpr scalar roughest = 0.2, aimedAt = 0.8;
 // Largest share of the energies at hand that a step may gain from nothing
 constexpr scalar mostGained = 0.05;
 // A gain of energy is rounding if the fastest particle moves less than this in one step [dx]
-constexpr scalar atRest = 1e-9;
+constexpr scalar atRest = 1e-6;
 }  // namespace
 
 namespace entries

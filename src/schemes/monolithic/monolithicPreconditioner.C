@@ -155,6 +155,8 @@ void monolithicPreconditioner::stiffen()
 void monolithicPreconditioner::chooseSweeps()
 {
     const particleCloud& cloud = system_.fsi().cloud;
+    sweeps_ = 1, leastEigenvalue_ = 1;
+    if (cloud.n() == cloud.nSolid()) return;
     leastEigenvalue_ = 1 / largestOf(cloud.nSolid(), cloud.n(), [&](label i) {
                            return system_.diagonal()[i] / system_.inertia(i);
                        });
