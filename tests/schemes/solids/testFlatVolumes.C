@@ -75,7 +75,7 @@ TEST_CASE("the sharp root of a leaflet follows the nearest solid particle")
     fsiCase c(time);
     trackedSurface surface("leaflet_to_blood", c);
     CHECK(
-        log.contains("leaflet_to_blood: 2 vertices on sharp edges follow the nearest solid "
+        log.contains("leaflet_to_blood: 3 vertices on sharp edges follow the nearest solid "
                      "particle, up to 1.66 dx away"));
     const triSurface rest = surface.now();
     for (label v = 0; v < label(rest.nodes.size()); ++v)
