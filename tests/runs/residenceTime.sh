@@ -45,6 +45,6 @@ grep -q "have no field residenceTime: it grows while the solver runs" log || fai
 h5dump -n 5/particles.hdf 2> /dev/null | grep -q residenceTime && fail "the field stays without the function object"
 # a function object named after it may draw its field from the start on
 rm -rf [0-9]* postProcessing
-control 0.1 "$age map { type planeMap; point (0 0 0); normal (0 0 -1); xAxis (1 0 0); xRange (0 0.02); yRange (0 8e-3); spacing 1e-3; fields (residenceTime); writeControl timeStep; }"
+control 0.1 "$age map { type planeMap; zones (water); point (0 0 0); normal (0 0 -1); xAxis (1 0 0); xRange (0 0.02); yRange (0 8e-3); spacing 1e-3; fields (residenceTime); writeControl timeStep; }"
 place; solved
 [ $failures = 0 ]
