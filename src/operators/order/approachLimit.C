@@ -35,7 +35,8 @@ struct approach
 approach approachOf(const particleCloud& cloud, label i, label j, scalar closest, scalar dt)
 {
     const vector d = cloud.x[i].xyz() - cloud.x[j].xyz();
-    const bool solid = cloud.ownerOf(j) < cloud.nSolid();
+    const label owner = cloud.ownerOf(j);  // -1: of a wall
+    const bool solid = owner >= 0 && owner < cloud.nSolid();
     const scalar least = solid ? std::max(closest, besideSolid * cloud.dx) : closest;
     const scalar r = d.norm(), room = std::max(r - least, scalar(0));
     if (r == 0) return {0, vector::Zero()};  // the direction is not defined
@@ -52,7 +53,8 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
     const label first = cloud.nSolid(), nFluid = cloud.n() - first;
     List<char> meets(nFluid, 0);
     label exchanges = 0;
-    const scalar reach = std::max(closest, besideSolid * cloud.dx) + 2 * cloud.maxSpeed() * dt;
+    const scalar most = first > 0 ? std::max(closest, besideSolid * cloud.dx) : closest;
+    const scalar reach = most + 2 * cloud.maxSpeed() * dt;
     for (int sweep = 0; sweep < mostSweeps; ++sweep)
     {
         parallelFor(nFluid, [&](label begin, label end) {

@@ -12,9 +12,6 @@ namespace
 
 // Way of the fastest particle in a step [dx] from which on the second term of (8.30) is taken in full (doc/constants.md)
 constexpr scalar inFull = 0.1;
-// [dx] of particles of a solid that shifting does not bring fluid nearer to: between two of them, a spacing apart, this is the
-// surface
-constexpr scalar layerReach = 0.75;
 
 // sum_j (r_mean/r_ij)^2 n_ij = r_mean^2 sum_j x_ij / r_ij^3, over all neighbours of i
 ISPF_INLINE vector crowding(const particleCloud& cloud, const neighbourList& list, label i)
@@ -38,18 +35,6 @@ ISPF_INLINE vector slopeOfSum(const particleCloud& cloud, const neighbourList& l
         return list.F[k] * (cloud.x[i].s - cloud.x[j].s);
     });
     return {sum[0], sum[1], sum[2]};
-}
-
-// Takes off dr what leads i nearer to particles of a solid that are near: their layer has no room for it
-void keepOut(const particleCloud& cloud, const neighbourList& list, label i, vector& dr)
-{
-    forNeighbours<among::others>(list, i, [&](pairIndex, label j) {
-        const label owner = cloud.ownerOf(j);
-        if (owner < 0 || cloud.isFluid(owner)) return;
-        const vector d = cloud.x[i].xyz() - cloud.x[j].xyz();
-        const scalar r = d.norm(), along = dr.dot(d) / r;
-        if (r < layerReach * cloud.dx && along < 0) dr -= along / r * d;
-    });
 }
 
 }  // namespace
@@ -180,7 +165,6 @@ scalar particleShifting::shift(particleCloud& cloud, const neighbourList& list,
             const label i = first + k;
             if (rowOf<among::all>(list, i).size() == 0 || (leaveAlone && leaveAlone(i))) continue;
             vector dr = alpha * crowding(cloud, list, i) - beta * slopeOfSum(cloud, list, i);
-            if (first > 0) keepOut(cloud, list, i, dr);
             if (const scalar size = dr.norm(); size > most) dr *= most / size;
             shifts[k] = dr, v[k] = limitedChange(cloud, list, correction.same[i], i, dr);
         }

@@ -13,8 +13,9 @@ namespace
 
 // [dx] r_ij of two particles, with a layer of fluid between them, and r_iw of a particle and a wall
 constexpr scalar pairReach = 2, wallReach = 1.5;
-// [dx] parts of one body that are nearer at rest are no strangers: their strain keeps them apart
-constexpr scalar ownBody = 3;
+// [dx] parts of one body that are nearer at rest are no strangers: their strain keeps them apart.  No lattice has this
+// distance, which rounding would decide
+constexpr scalar ownBody = 4.06;
 
 scalar over(scalar reach, scalar distance)
 {

@@ -223,8 +223,9 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
         const pairRange row = rowOf<among::others>(*list_, i);
         forNeighbours(*list_, row, [&](pairIndex k, label j) {
             const vector way = cloud.x[j].xyz() - cloud.x[i].xyz();
-            // what is behind the particle is before the other face of a thin solid
-            if (fluidZone(cloud, j) != part.side || !(part.S.dot(way) > 0)) return;
+            // what is behind the particle is before the other face of a thin solid; what is beside it counts
+            const bool behind = part.S.dot(way) < -0.5 * cloud.dx * part.S.norm();
+            if (fluidZone(cloud, j) != part.side || behind) return;
             w[k - row.first] = kernel.W(way.norm());
             sum += w[k - row.first];
         });
