@@ -126,31 +126,6 @@ TEST_CASE(
         }
 }
 
-TEST_CASE(
-    "fluid does not go through between two particles of a solid; a wall's particles keep the "
-    "pairs' distance")
-{
-    for (const below what : {below::solid, below::rigid})
-    {
-        column c(what);
-        const scalar dx = column::dx, dt = 0.01;
-        const label i = c.lowest();
-        c.cloud.x[i] = vec4::from(dx * vector(7, 0, 0));
-        for (label k = 0; k < c.cloud.n(); ++k) c.cloud.Up[k] = vec4{};
-        c.cloud.Up[i] = vec4::from(vector(0, -0.3 * dx / dt, 0));
-        c.list.build(c.cloud, *smoothingKernel::New("WendlandC2", 2, 1.3 * dx));
-        List<vec4> toSolid;
-        const label exchanges = limitApproach(c.cloud, c.list, 0.4 * dx, dt, toSolid);
-        CHECK((exchanges > 0) == (what == below::solid));
-        const vector end = c.cloud.x[i].xyz() + dt * c.cloud.Up[i].xyz();
-        const scalar closest = what == below::solid ? 0.65 : 0.4;
-        if (what == below::solid)
-            CHECK(end[1] ==
-                  doctest::Approx((std::sqrt(closest * closest - 0.25) - 0.5) * dx).epsilon(0.05));
-        else CHECK(end[1] < -0.2 * dx);
-    }
-}
-
 TEST_CASE("a particle moves by maxShift at most, and not at all if it is to be left alone")
 {
     for (const scalar most : {0.05, 0.02})

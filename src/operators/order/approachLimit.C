@@ -13,8 +13,6 @@ namespace
 
 // Exchanges among three particles settle in a few sweeps; the rest is left to the next step
 constexpr int mostSweeps = 5;
-// [dx] fluid keeps more distance from particles of a solid, so that none goes through between two of them
-constexpr scalar besideSolid = 0.65;
 
 vector velocityOf(const particleCloud& cloud, label j)
 {
@@ -35,10 +33,7 @@ struct approach
 approach approachOf(const particleCloud& cloud, label i, label j, scalar closest, scalar dt)
 {
     const vector d = cloud.x[i].xyz() - cloud.x[j].xyz();
-    const label owner = cloud.ownerOf(j);  // -1: of a wall
-    const bool solid = owner >= 0 && owner < cloud.nSolid();
-    const scalar least = solid ? std::max(closest, besideSolid * cloud.dx) : closest;
-    const scalar r = d.norm(), room = std::max(r - least, scalar(0));
+    const scalar r = d.norm(), room = std::max(r - closest, scalar(0));
     if (r == 0) return {0, vector::Zero()};  // the direction is not defined
     const vector n = d / r;
     return {-room / dt - n.dot(cloud.Up[i].xyz() - velocityOf(cloud, j)), n};
@@ -53,8 +48,7 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
     const label first = cloud.nSolid(), nFluid = cloud.n() - first;
     List<char> meets(nFluid, 0);
     label exchanges = 0;
-    const scalar most = first > 0 ? std::max(closest, besideSolid * cloud.dx) : closest;
-    const scalar reach = most + 2 * cloud.maxSpeed() * dt;
+    const scalar reach = closest + 2 * cloud.maxSpeed() * dt;
     for (int sweep = 0; sweep < mostSweeps; ++sweep)
     {
         parallelFor(nFluid, [&](label begin, label end) {
