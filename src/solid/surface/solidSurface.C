@@ -222,11 +222,8 @@ void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
         scalar* w = weight_[s].data() + start_[i];
         const pairRange row = rowOf<among::others>(*list_, i);
         forNeighbours(*list_, row, [&](pairIndex k, label j) {
-            const vector way = cloud.x[j].xyz() - cloud.x[i].xyz();
-            // what is behind the particle is before the other face of a thin solid; what is beside it counts
-            const bool behind = part.S.dot(way) < -0.5 * cloud.dx * part.S.norm();
-            if (fluidZone(cloud, j) != part.side || behind) return;
-            w[k - row.first] = kernel.W(way.norm());
+            if (fluidZone(cloud, j) != part.side) return;
+            w[k - row.first] = kernel.W((cloud.x[i].xyz() - cloud.x[j].xyz()).norm());
             sum += w[k - row.first];
         });
         if (sum == 0) part.side = -1;  // the particle sees no fluid: no load, no flux
