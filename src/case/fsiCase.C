@@ -147,24 +147,14 @@ void fsiCase::readKernel()
 // Sets of particles that the pattern's entries join, without sets that have a clamped particle
 static List<List<label>> freeBodies(const blockMatrix3& pattern, const List<char>& fixed)
 {
-    const label n = label(pattern.rowStart.size()) - 1;
-    List<char> seen(n, 0);
-    List<List<label>> bodies;
-    for (label first = 0; first < n; ++first)
-    {
-        if (seen[first]) continue;
-        List<label> body = {first};
-        seen[first] = 1;
-        bool clamped = false;
-        for (size_t k = 0; k < body.size(); ++k)
-        {
-            clamped = clamped || fixed[body[k]];
-            for (label s = pattern.rowStart[body[k]]; s < pattern.rowStart[body[k] + 1]; ++s)
-                if (const label j = pattern.column[s]; !seen[j]) seen[j] = 1, body.push_back(j);
-        }
-        if (!clamped) bodies.push_back(std::move(body));
-    }
-    return bodies;
+    const List<label> setOf = pattern.connectedSets();
+    std::map<label, List<label>> bodies;
+    for (label i = 0; i < label(setOf.size()); ++i) bodies[setOf[i]].push_back(i);
+    List<List<label>> free;
+    for (auto& [first, body] : bodies)
+        if (std::none_of(body.begin(), body.end(), [&](label i) { return fixed[i]; }))
+            free.push_back(std::move(body));
+    return free;
 }
 
 void fsiCase::readStructure()

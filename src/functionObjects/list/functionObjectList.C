@@ -99,7 +99,7 @@ void functionObjectList::adopt(List<item> items)
     carryFields();
 }
 
-// What a run has not written cannot be made later
+// False if the state was written by an earlier run: nothing makes the past of a field that it does not have
 bool functionObjectList::mayCarry() const
 {
     return !case_.time.postProcessing() || case_.time.timeIndex() == 0;

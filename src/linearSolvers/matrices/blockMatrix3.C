@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "blockMatrix3.H"
 
+#include "disjointSets.H"
 #include "execution.H"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 namespace ispf
@@ -37,6 +39,16 @@ void blockMatrix3::apply(const List<vec4>& x, List<vec4>& y) const
 {
     parallelFor(size(), [&](label i, label e) { productRange(*this, i, e, x.data(), y.data()); });
     countPairs(label(value.size()), sizeof(std::int32_t) + sizeof(tensor));
+}
+
+List<label> blockMatrix3::connectedSets() const
+{
+    List<label> parent(rowStart.size() - 1);
+    std::iota(parent.begin(), parent.end(), 0);
+    for (label i = 0; i < label(parent.size()); ++i)
+        for (label k = rowStart[i]; k < rowStart[i + 1]; ++k) join(parent, i, column[k]);
+    for (label i = 0; i < label(parent.size()); ++i) parent[i] = representative(parent, i);
+    return parent;
 }
 
 blockMatrix3 blockMatrix3::with(List<entry> entries) const

@@ -29,7 +29,12 @@ closedGaps::closedGaps(const dictionary& dict)
     dict.refuseOthers({"gap", "viscosity"});
 }
 
-// What fluid particle i has around it
+bool closedGaps::face(const facing& a, const facing& b, scalar most)
+{
+    return a.normal.dot(b.normal) < opposite && a.distance + b.distance < most;
+}
+
+// Lists the surfaces of solids, and of walls if there are any solids, that fluid particle i has within the gap
 List<closedGaps::facing> closedGaps::facesOf(const fsiCase& c, const solidSurface& surface,
                                              label i) const
 {
@@ -57,20 +62,18 @@ void closedGaps::close(fsiCase& c, const solidSurface& surface) const
     particleCloud& cloud = c.cloud;
     List<scalar>& ratio = cloud.scalars[viscosityRatio];
     if (!c.viscosity) ratio.assign(cloud.n(), 1);
-    const List<scalar> own(ratio);
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
     {
+        bool closed = false;
         const List<facing> faces = facesOf(c, surface, i);
         for (const facing& a : faces)
             for (const facing& b : faces)
             {
-                if (a.solid < 0 || a.normal.dot(b.normal) > opposite ||
-                    a.distance + b.distance > gap_ * cloud.dx)
-                    continue;
-                ratio[i] = factor_ * std::max(own[i], scalar(1));
-                for (const label k : {a.solid, b.solid})
-                    if (k >= 0) ratio[k] = factor_;
+                if (a.solid < 0 || !face(a, b, gap_ * cloud.dx)) continue;
+                closed = true, ratio[a.solid] = factor_;
+                if (b.solid >= 0) ratio[b.solid] = factor_;
             }
+        if (closed) ratio[i] = factor_ * std::max(ratio[i], scalar(1));
     }
 }
 

@@ -106,7 +106,6 @@ private:
     void addSources(const monolithicEntries& e);
     void begin(scalar t, scalar dt);
     void structureState();
-    List<scalar> overSurface();
     void elasticState();
     void assemble();
     List<scalar> guess() const;
@@ -185,25 +184,15 @@ void monolithic::structureState()
     if (gaps_) gaps_->close(c_, surface_);
 }
 
-// p of each solid particle less the mean on the surface, for (7.16)
-List<scalar> monolithic::overSurface()
-{
-    particleCloud& cloud = c_.cloud;
-    cloud.fillGhosts(cloud.Up, false);
-    const scalar mean = surface_.meanPressure(
-        cloud.Up,
-        outside_ ? outside_->pressureAt(time_.times().pressures, system_.hydrostatic()) : nullptr);
-    List<scalar> p(cloud.nSolid());
-    forEach(0, cloud.nSolid(),
-            [&](label i) { p[i] = volume_->acts(i) ? cloud.Up[i][3] - mean : 0; });
-    return p;
-}
-
 // Call once the hydrostatic part of p is known
 void monolithic::elasticState()
 {
     if (!c_.structure) return;
-    elastic_.begin(time_.elasticStart(c_.cloud), time_.tau(), overSurface());
+    const auto outsidePressure =
+        outside_ ? outside_->pressureAt(time_.times().pressures, system_.hydrostatic()) : nullptr;
+    c_.cloud.fillGhosts(c_.cloud.Up, false);
+    elastic_.begin(time_.elasticStart(c_.cloud), time_.tau(),
+                   surface_.overSurface(c_.cloud.Up, *volume_, outsidePressure));
     if (outside_)
     {
         outside_->setStep(c_, surface_, system_.hydrostatic(),

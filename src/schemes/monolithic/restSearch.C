@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ispf
 {
@@ -21,7 +22,7 @@ constexpr scalar memory = 0.5;
 // Largest change of the deformation gradient in a pass
 constexpr scalar longestPass = 0.2;
 // Times that a shear wave takes along the solid: a step so long has no inertia
-constexpr scalar longStep = 100;
+constexpr scalar longStep = 10;
 
 class restSearch
 {
@@ -34,7 +35,8 @@ public:
           pressure_(pressures(dict.subOrEmptyDict("pressures"))),
           tolerance_(dict.getInRangeOrDefault("tolerance", 1e-12, 1e-2, 1e-4)),
           maxIter_(dict.getInRangeOrDefault<label>("maxIter", 1, 10000, 100)),
-          dict_(dict)
+          dict_(dict),
+          outside_(outsideWall::New(c.structureProperties, c.caseFolder()))
     {
         dict.refuseOthers({"pressures", "tolerance", "maxIter"});
     }
@@ -43,6 +45,10 @@ public:
 private:
     List<scalar> pressures(const dictionary& dict) const;
     void hold();
+    void lookAtShape();
+    void setForces(elasticStep& elastic, coupledSystem& system, scalar tau);
+    List<scalar> missingVolume(scalar tau) const;
+    void release(const List<vec4>& velocities);
     scalar stepLength() const;
     void setSteadyVolume(const coupledSystem& system, List<scalar> z);
     scalar pass();
@@ -55,6 +61,9 @@ private:
     scalar tolerance_;
     label maxIter_;
     const dictionary& dict_;
+    std::unique_ptr<outsideWall> outside_;  // null: nothing is outside the solid
+    std::unique_ptr<volumeConstraint> volume_;
+    solidSurface surface_;
 };
 
 List<scalar> restSearch::pressures(const dictionary& dict) const
@@ -126,55 +135,83 @@ void restSearch::setSteadyVolume(const coupledSystem& system, List<scalar> z)
         if (system.rows().acts(i)) aim[i] += forgotten_ * system.dt() * rows[4 * i + 3] / cloud.dx;
 }
 
+// Sets surface and volume for the first shape, where F = 1
+void restSearch::lookAtShape()
+{
+    particleCloud& cloud = c_.cloud;
+    const List<tensor> F(cloud.nSolid(), tensor::Identity());
+    const List<isometry>& images = c_.structure->reference().images;
+    volume_ = std::make_unique<volumeConstraint>(*c_.structure);
+    volume_->setup(F);
+    surface_.initialise(cloud, c_.list, F, images, bool(outside_));
+    surface_.setup(cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
+}
+
+// Sets the forces and the tangent at the first shape
+void restSearch::setForces(elasticStep& elastic, coupledSystem& system, scalar tau)
+{
+    const scalar t = c_.time.value();
+    const List<vec4> x(c_.cloud.x.begin(), c_.cloud.x.begin() + c_.cloud.nSolid());
+    const auto outsidePressure = outside_ ? outside_->pressureAt(t, system.hydrostatic()) : nullptr;
+    c_.cloud.fillGhosts(c_.cloud.Up, false);
+    elastic.begin(x, tau, surface_.overSurface(c_.cloud.Up, *volume_, outsidePressure));
+    if (!outside_) return;
+    outside_->setStep(c_, surface_, system.hydrostatic(), {tau, t, x});
+    elastic.addOutside(outside_->force(), outside_->resistance());
+}
+
+// det(dX/dx) - 1, over tau: the source with which the rest gets the volume of the image
+List<scalar> restSearch::missingVolume(scalar tau) const
+{
+    List<tensor> toRest;
+    c_.structure->gradient().apply(c_.cloud.vectors.at(restPlaces), toRest);
+    List<scalar> q(c_.cloud.n(), 0);
+    forEach(0, c_.cloud.nSolid(), [&](label i) { q[i] = (toRest[i].determinant() - 1) / tau; });
+    return q;
+}
+
+// One linear system: keeps its pressures, moves the rest places.  Returns the largest strain, not finite if the system has not
+// been solved
 scalar restSearch::pass()
 {
     particleCloud& cloud = c_.cloud;
-    if (solidMemory* memory = c_.structure->memory())
-        memory->recall({}), memory->begin(cloud.x, 0), memory->end(cloud.x, 1e30);
-    List<tensor> F;
-    c_.structure->deformationGradient(cloud.x, F);
-    solidSurface surface;
-    volumeConstraint volume(*c_.structure);
-    const auto outside = outsideWall::New(c_.structureProperties, c_.caseFolder());
-    const List<isometry>& images = c_.structure->reference().images;
-    surface.initialise(cloud, c_.list, F, images, bool(outside));
-    volume.setup(F);
-    surface.setup(cloud, c_.list, *c_.kernel, volume.cofactor(), images);
-
-    const scalar tau = stepLength(), t = c_.time.value();
+    if (solidMemory* past = c_.structure->memory())
+        past->recall({}), past->begin(cloud.x, 0), past->end(cloud.x, 1e30);
+    lookAtShape();
+    const scalar tau = stepLength();
     coupledSystem system(c_);
-    system.setStep(t, t);
+    system.setStep(c_.time.value(), c_.time.value());
     elasticStep elastic(c_.structure.get(), elasticStep::entries(dictionary()));
-    const auto outsidePressure = outside ? outside->pressureAt(t, system.hydrostatic()) : nullptr;
-    List<scalar> p(cloud.nSolid());
-    cloud.fillGhosts(cloud.Up, false);
-    const scalar mean = surface.meanPressure(cloud.Up, outsidePressure);
-    for (label i = 0; i < cloud.nSolid(); ++i) p[i] = volume.acts(i) ? cloud.Up[i][3] - mean : 0;
-    const List<vec4> start(cloud.x.begin(), cloud.x.begin() + cloud.nSolid());
-    elastic.begin(start, tau, p);
-    if (outside)
-    {
-        outside->setStep(c_, surface, system.hydrostatic(), {tau, t, start});
-        elastic.addOutside(outside->force(), outside->resistance());
-    }
-    system.setup(tau, &volume, &surface, &elastic.tangent());
+    setForces(elastic, system, tau);
+    system.setup(tau, volume_.get(), &surface_, &elastic.tangent());
     monolithicPreconditioner preconditioner(system, preconditioner_);
     preconditioner.setup();
 
-    List<scalar> q(cloud.n(), 0);
-    List<tensor> toRest;
-    c_.structure->gradient().apply(cloud.vectors.at(restPlaces), toRest);
-    forEach(0, cloud.nSolid(), [&](label i) { q[i] = (toRest[i].determinant() - 1) / tau; });
     List<scalar> b, z(4 * cloud.n());
     for (label i = 0; i < cloud.n(); ++i) z[4 * i + 3] = cloud.Up[i][3];
-    system.rightHandSide(memory, elastic.force(), q, b);
+    system.rightHandSide(memory, elastic.force(), missingVolume(tau), b);
     solverControls controls;
     controls.tolerance = 0, controls.relTol = 1e-6, controls.absTol = 0, controls.maxIter = 500;
     FGMRES solver(controls, "rest", controls.maxIter);
-    solver.solve(system, preconditioner, b, z).print();
-    for (label i = 0; i < cloud.nSolid(); ++i) cloud.Up[i][3] = volume.acts(i) ? z[4 * i + 3] : 0;
+    const solverPerformance result = solver.solve(system, preconditioner, b, z);
+    result.print();
+    if (!result.converged) return std::numeric_limits<scalar>::infinity();
+    for (label i = 0; i < cloud.nSolid(); ++i) cloud.Up[i][3] = volume_->acts(i) ? z[4 * i + 3] : 0;
     setSteadyVolume(system, z);
     return moveRest(z, tau);
+}
+
+// Gives back what hold() has taken, and the hydrostatic part
+void restSearch::release(const List<vec4>& velocities)
+{
+    particleCloud& cloud = c_.cloud;
+    const scalar t = c_.time.value();
+    forEach(0, cloud.n(), [&](label i) { cloud.Up[i].setXyz(velocities[i].xyz()); });
+    c_.updateNeighbours(t, t);  // with the flags of the case
+    hydrostaticPart weight(c_);
+    weight.setStep(t, t);
+    weight.giveBack(cloud);
+    keepSolid(c_);
 }
 
 void restSearch::run()
@@ -185,6 +222,7 @@ void restSearch::run()
     cloud.vectors[restPlaces] = cloud.vectors["x0"];
     c_.makeStructure();
     c_.updateNeighbours(t, t);
+    const List<vec4> velocities(cloud.Up.begin(), cloud.Up.begin() + cloud.n());
     hold();
     scalar strain = 0;
     for (label k = 1; k <= maxIter_; ++k)
@@ -192,19 +230,15 @@ void restSearch::run()
         strain = pass();
         c_.makeStructure();
         info() << "Prestress: pass " << k << ", strain " << str(strain, 3) << "\n";
+        if (strain <= tolerance_) return release(velocities);
         if (!std::isfinite(strain)) break;
-        if (strain > tolerance_) continue;
-        c_.updateNeighbours(t, t);  // with the flags of the case
-        hydrostaticPart weight(c_);
-        weight.setStep(t, t);
-        weight.giveBack(cloud);
-        keepSolid(c_);
-        return;
     }
-    throw fatalError("No shape at rest is found for prestress: after " + std::to_string(maxIter_) +
-                         " passes its strain still changes by " + str(strain, 3) +
-                         ". Is the pressure more than the wall can carry? Try a smaller one",
-                     dict_.where());
+    throw fatalError(
+        "No shape at rest is found for prestress: the last pass changes its strain by " +
+            str(strain, 3) + ", and " + str(tolerance_, 3) + " is asked for (tolerance, maxIter " +
+            std::to_string(maxIter_) +
+            "). Is the pressure more than the wall can carry? Try a smaller one",
+        dict_.where());
 }
 
 }  // namespace

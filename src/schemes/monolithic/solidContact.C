@@ -24,30 +24,11 @@ scalar over(scalar reach, scalar distance)
 
 }  // namespace
 
-solidContact::solidContact(const fsiCase& c) : c_(c)
+solidContact::solidContact(const fsiCase& c)
+    : c_(c), bodyOf_(c.structure->tangentPattern().connectedSets())
 {
-    findBodies();
-}
-
-// Sets of particles that links join
-void solidContact::findBodies()
-{
-    const blockMatrix3 pattern = c_.structure->tangentPattern();
-    const label n = c_.structure->n();
-    List<label> body(n, -1);
-    label count = 0;
-    for (label first = 0; first < n; ++first)
-    {
-        if (body[first] >= 0) continue;
-        List<label> members = {first};
-        body[first] = count;
-        for (size_t k = 0; k < members.size(); ++k)
-            for (label s = pattern.rowStart[members[k]]; s < pattern.rowStart[members[k] + 1]; ++s)
-                if (const label j = pattern.column[s]; body[j] < 0)
-                    body[j] = count, members.push_back(j);
-        ++count;
-    }
-    if (count > 1) bodyOf_ = std::move(body);
+    if (std::all_of(bodyOf_.begin(), bodyOf_.end(), [](label first) { return first == 0; }))
+        bodyOf_ = {};
 }
 
 void solidContact::find()
@@ -56,7 +37,8 @@ void solidContact::find()
     for (label i = 0; i < c_.cloud.nSolid(); ++i)
     {
         findPairs(i);
-        if (!c_.cloud.uFixed[i]) findWalls(i);
+        // a wall within reach has neighbours among its particles and images
+        if (!c_.cloud.uFixed[i] && rowOf<among::walls>(c_.list, i).size() > 0) findWalls(i);
     }
 }
 

@@ -280,6 +280,16 @@ void solidSurface::outsideLoads(const pressureAt& at, List<vec4>& Q, List<tensor
     });
 }
 
+List<scalar> solidSurface::overSurface(const List<vec4>& up, const volumeConstraint& volume,
+                                       const pressureAt& at) const
+{
+    const scalar mean = meanPressure(up, at);
+    List<scalar> p(cloud_->nSolid());
+    forEach(0, cloud_->nSolid(), [&](label i) { p[i] = volume.acts(i) ? up[i][3] - mean : 0; });
+    return p;
+}
+
+// Mean of the pressure over the whole surface, zero without one
 scalar solidSurface::meanPressure(const List<vec4>& up, const pressureAt& at) const
 {
     const auto [load, area] = sumsOf(0, cloud_->nSolid(), [&](label i) -> std::array<scalar, 2> {
