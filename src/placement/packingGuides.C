@@ -2,6 +2,7 @@
 #include "packing.H"
 
 #include <cmath>
+#include <map>
 
 namespace ispf
 {
@@ -11,7 +12,8 @@ namespace
 
 constexpr scalar longestMove = 0.15;  // in dx, per move
 constexpr scalar longestDrift = 0.5;  // in dx, of particles outside the zones, whose edges are free
-constexpr scalar flush = 0.2;  // cosine between the normals of an open face and a wall around it
+// Mean cosine between the normals of an open face and of the walls at its rim
+constexpr scalar flush = 0.2;
 
 }  // namespace
 
@@ -22,6 +24,38 @@ packingGuides::packingGuides(const zoneGeometry& geometry, const exterior& outsi
     for (size_t z = 0; z < geometry.zones().size(); ++z)
         zoneSurface_.emplace_back(
             withImages(geometry.boundary(label(z)), geometry.symmetryPlanes(), reach));
+    for (size_t p = 0; p < geometry.patches().size(); ++p)
+        flush_.push_back(geometry.patches()[p].type == patchInfo::kind::open &&
+                         leanOf(label(p)) > flush);
+}
+
+// Mean over the rim of the cosine between the normals of the face and of the wall there.  It is 0 at the end of a pipe, also
+// of one that is cut obliquely
+scalar packingGuides::leanOf(label openPatch) const
+{
+    const scalar near = zoneGeometry::probe * geometry_.dx();
+    triSurface face = geometry_.patchSurface(openPatch);
+    face.weld(1e-3 * near);
+    std::map<std::pair<label, label>, int> edges;  // number of triangles of each
+    for (const triSurface::triangle& t : face.triangles)
+        for (int k = 0; k < 3; ++k) ++edges[std::minmax(t[k], t[(k + 1) % 3])];
+    scalar sum = 0, length = 0;
+    for (const auto& [edge, n] : edges)
+    {
+        if (n > 1) continue;
+        const vector &a = face.nodes[edge.first], &b = face.nodes[edge.second];
+        const vector x = 0.5 * (a + b);
+        for (size_t w = 0; w < geometry_.patches().size(); ++w)
+        {
+            if (geometry_.patches()[w].type != patchInfo::kind::wall) continue;
+            const exteriorPoint q = outside_.footOn(label(w), x, near);
+            if (q.type == exteriorPoint::kind::nothing) continue;
+            const scalar side = (b - a).norm();
+            sum += side * q.normal.dot(outside_.footOn(openPatch, x, near).normal), length += side;
+            break;
+        }
+    }
+    return length > 0 ? sum / length : 0;
 }
 
 void packingGuides::move(packedParticle& p, vector by, bool exactly) const
@@ -75,14 +109,12 @@ void packingGuides::keepOffWall(packedParticle& p) const
 // A wall in which the face lies flush does not lead on beside the strip: its plane would cover the face
 label packingGuides::wallBeside(const vector& x, label openPatch) const
 {
-    const vector along = outside_.footOn(openPatch, x, 2 * outside_.stripWidth()).normal;
+    if (flush_[openPatch]) return -1;
     for (size_t w = 0; w < geometry_.patches().size(); ++w)
     {
         if (geometry_.patches()[w].type != patchInfo::kind::wall) continue;
         const exteriorPoint q = outside_.footOn(label(w), x, 5 * geometry_.dx());
-        if (q.type == exteriorPoint::kind::nothing || q.depth < -1.5 * geometry_.dx() ||
-            q.normal.dot(along) > flush)
-            continue;
+        if (q.type == exteriorPoint::kind::nothing || q.depth < -1.5 * geometry_.dx()) continue;
         // an oblique face extends no farther than this behind the end of the wall
         if (q.depth > outside_.stripWidth() + 0.5 * geometry_.dx())
             throw fatalError(

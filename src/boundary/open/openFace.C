@@ -87,6 +87,13 @@ void openFace::addOutlet(const particleCloud& cloud, scalar rho, scalar dt,
                        -area() * dt / (rho * inertia * dx_)});
 }
 
+void openFace::addLink(List<outletLink>& all) const
+{
+    if (p_ && p_->slope() != 0)
+        all.push_back({firstStrip_, firstStrip_ + label(areas_.size()), images_ * p_->slope(),
+                       p_->flow() / images_, area() / images_});
+}
+
 void openFace::accept(particleCloud& cloud, scalar t0, scalar t1) const
 {
     if (p_) cloud.state.set(outletState(), p_->accept({t0, t1}, images_ * flux_));

@@ -263,6 +263,7 @@ void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, sc
     {
         velocity.emplace(*this, cloud, [&](label i) { return cloud.Up[i].xyz(); });
         flux_ = outflow(cloud);
+        given_ = p_->with(images_ * flux_);  // for new particles of the strip
     }
     else pressure.emplace(*this, cloud, [&](label i) { return vector(cloud.Up[i][3], 0, 0); });
     const slopeBefore slope(*this, cloud, friction, rho, dt);

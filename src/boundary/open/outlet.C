@@ -20,12 +20,12 @@ scalar outletPressure::begin(const outlet::step& s, const List<scalar>& kept)
     step_ = s;
     if (again_) return p_;  // agree() has found it
     tried_ = 0;
-    scalar Q = 0;
+    flow_ = 0;
     const size_t own = kind_->state().size();
     if (kept.size() >= 1 + own)
-        Q = kept[0], Y_.assign(kept.begin() + 1, kept.end() - own),
+        flow_ = kept[0], Y_.assign(kept.begin() + 1, kept.end() - own),
         kind_->restore(List<scalar>(kept.end() - own, kept.end()));
-    return p_ = kind_->pressure(s, Q);
+    return p_ = kind_->pressure(s, flow_);
 }
 
 // Broyden's rule: the least change of dQ/dp with which it explains the last change of Q.  `own` is the place of this outlet
@@ -46,7 +46,7 @@ void outletPressure::learn(const List<solved>& all, size_t own)
 
 bool outletPressure::agree(List<solved> all)
 {
-    std::erase_if(all, [](const solved& s) { return s.of->kind_->slope(s.of->step_) == 0; });
+    std::erase_if(all, [](const solved& s) { return s.of->slope() == 0; });
     const label n = label(all.size());
     Eigen::MatrixXd Y(n, n), A(n, n);
     Eigen::VectorXd lacks(n);
@@ -55,13 +55,17 @@ bool outletPressure::agree(List<solved> all)
         outletPressure& o = *all[i].of;
         o.learn(all, size_t(i));
         Y.row(i) = Eigen::Map<const Eigen::RowVectorXd>(o.Y_.data(), n);
-        A.row(i) = -o.kind_->slope(o.step_) * Y.row(i), A(i, i) += 1;
+        A.row(i) = -o.slope() * Y.row(i), A(i, i) += 1;
         lacks[i] = o.kind_->pressure(o.step_, all[i].Q) - o.p_;
     }
     const Eigen::VectorXd change = A.partialPivLu().solve(lacks), dQ = Y * change;
     bool again = false;
     for (label i = 0; i < n; ++i)
-        again = again || std::abs(dQ[i]) > exactness * (std::abs(all[i].Q) + all[i].Q0);
+    {
+        // also of the flow that has the pressure, in place of the one that it causes: a Y near 0 says nothing of p
+        const scalar off = std::max(std::abs(dQ[i]), std::abs(change[i]) / all[i].of->slope());
+        again = again || off > exactness * (std::abs(all[i].Q) + all[i].Q0);
+    }
     for (label i = 0; i < n; ++i)
     {
         outletPressure& o = *all[i].of;

@@ -74,6 +74,13 @@ bool boundary::outletsAgree(const particleCloud& cloud, scalar rho, scalar dt) c
     return outletPressure::agree(std::move(all));
 }
 
+List<outletLink> boundary::outletLinks() const
+{
+    List<outletLink> all;
+    for (const auto& p : content_->patches) p->addLink(all);
+    return all;
+}
+
 void boundary::updateGhosts(particleCloud& cloud) const
 {
     cloud.clearGhosts();

@@ -48,6 +48,7 @@ public:
     {
         face_->addOutlet(cloud, rho, dt, all);
     }
+    void addLink(List<outletLink>& all) const override { face_->addLink(all); }
     void follow(particleCloud& cloud, const List<vec4>& friction, scalar rho,
                 scalar dt) const override
     {

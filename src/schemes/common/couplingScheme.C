@@ -129,11 +129,6 @@ vector couplingScheme::frame() const
     return vector(sum[0], sum[1], sum[2]) / scalar(n);
 }
 
-bool couplingScheme::outletsDiffer(scalar tau) const
-{
-    return c_.walls->hasOpen() && !c_.walls->outletsAgree(c_.cloud, c_.rho, tau);
-}
-
 word couplingScheme::tooFar(scalar dt, bool keeps)
 {
     const particleCloud& cloud = c_.cloud;

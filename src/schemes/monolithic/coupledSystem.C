@@ -34,6 +34,7 @@ void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solid
                       }) /
                 scalar(cloud.n() - cloud.nSolid());
     rows_.setTau(tau_, fluidTau_);
+    outlets_.setup(cloud, c_.walls->outletLinks(), dt / (c_.rho * cloud.dx));
     enclosed_.setup([this](const List<vec4>& phi, List<vec4>& gp) { rows_.solidGradient(phi, gp); },
                     surface);
 }
@@ -99,6 +100,7 @@ void coupledSystem::writeRows(const List<vec4>& phi, const List<vec4>& lap, cons
             y[4 * i + 3] = cloud.pHeld(i) ? phi[i].s[3] : cloud.dx * continuity[i];
         }
     });
+    outlets_.apply(cloud, continuity, y);
     enclosed_.balance(y);
 }
 
@@ -160,6 +162,7 @@ void coupledSystem::rightHandSide(scalar theta, const List<vec4>& springForce,
     forEach(0, cloud.n(), [&](label i) {
         if (!cloud.pHeld(i)) b[4 * i + 3] = rows_.acts(i) ? cloud.dx * (q[i] - known[i]) : 0;
     });
+    outlets_.rightHandSide(cloud, known, b);
     enclosed_.balance(b);
 }
 

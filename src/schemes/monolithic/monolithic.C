@@ -219,7 +219,8 @@ List<scalar> monolithic::guess() const
         simd4 up = time_.now()[i].s;
         if (has) up += ratio * (up - old->second[i].s);
         for (int a = 0; a < 3; ++a) z[4 * i + a] = cloud.uFixed[i] ? cloud.Up[i][a] : up[a];
-        z[4 * i + 3] = cloud.pHeld(i) ? cloud.heldPressure(i) : up[3];
+        const bool given = cloud.pHeld(i) && !system_.outlets().has(i);
+        z[4 * i + 3] = given ? cloud.heldPressure(i) : up[3];
     });
     return z;
 }
@@ -346,7 +347,6 @@ word monolithic::attempt(scalar t, scalar dt)
         energy_[energyLedger::springs] -= work + lost;
         energy_[energyLedger::forces] += work, energy_[energyLedger::viscosity] += lost;
     });
-    if (outletsDiffer(time_.tau())) return outletsAsk;  // (4.11)
     if (const word reason = tooFar(dt, c_.time.adjustTimeStep()); !reason.empty()) return reason;
     sources_.book(dt);                                                            // (5.12), (7.5)
     time_.end(cloud, energy_);                                                    // (8.42)

@@ -227,6 +227,7 @@ void monolithicPreconditioner::apply(const List<scalar>& r, List<scalar>& z) con
             phi_[i].s = simd4{0, 0, 0, cloud.pHeld(i) ? r[4 * i + 3] : p};
         }
     });
+    system_.outlets().precondition(phi_);
     cloud.fillGhosts(phi_, true);
     system_.rows().gradient(phi_, du_);
     du_.resize(cloud.nAll());

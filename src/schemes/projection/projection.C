@@ -251,7 +251,8 @@ word projection::attempt(scalar t, scalar dt)
         }
     });
     if (!fails.empty()) return fails;
-    if (outletsDiffer(time_.tau())) return outletsAsk;  // (4.11)
+    if (c_.walls->hasOpen() && !c_.walls->outletsAgree(cloud, c_.rho, time_.tau()))
+        return outletsAsk;  // (4.15)
     if (const word reason = tooFar(dt); !reason.empty()) return reason;
     time_.end(cloud, energy_);                                                           // (8.42)
     if (const word reason = tooRough(time_, dt, mean_); !reason.empty()) return reason;  // (8.44)
