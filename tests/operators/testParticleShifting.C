@@ -176,7 +176,8 @@ TEST_CASE(
     periodicBox far(2, 12, 0.05, "WendlandC2", 1.3);
     for (label i = 0; i < far.cloud.n(); ++i) far.cloud.Up[i] = vec4::from({0.1, 0, 0});
     List<vec4> toSolid;
-    CHECK(limitApproach(far.cloud, far.list, 0.4 * far.cloud.dx, far.cloud.dx, toSolid) == 0);
+    CHECK(limitApproach(far.cloud, far.list, 0.4 * far.cloud.dx, 0.4 * far.cloud.dx, far.cloud.dx,
+                        toSolid) == 0);
 
     for (const int nDims : {2, 3})
         for (const label held : {-1, 11})
@@ -210,7 +211,7 @@ TEST_CASE(
                 return most / cloud.dx;
             };
             CHECK(worst() > 0.5 * dt);
-            const label exchanges = limitApproach(cloud, box.list, closest, step, toSolid);
+            const label exchanges = limitApproach(cloud, box.list, closest, closest, step, toSolid);
             CHECK(exchanges > 10);
             CHECK(worst() < 0.05 * dt);  // five sweeps
             vector momentum = vector::Zero();
@@ -228,6 +229,46 @@ TEST_CASE(
             if (held < 0) CHECK(momentum.norm() < 1e-12);
             else CHECK(difference({before[held]}, {cloud.Up[held]}) == 0);
         }
+}
+
+TEST_CASE(
+    "kept off a solid, crowded fluid is not shifted into it and does not go through between two of "
+    "its particles")
+{
+    column c(below::solid);
+    const scalar dx = column::dx, dt = 0.01, least = 0.75;
+    const label i = c.lowest();
+    // before the gap between two of the first row, with another that presses it in
+    c.cloud.x[i] = vec4::from(dx * vector(7, 0.04, 0));
+    c.cloud.x[i + 13] = vec4::from(dx * vector(7, 0.5, 0));
+    c.list.build(c.cloud, *smoothingKernel::New("WendlandC2", 2, 1.3 * dx));
+    c.B.build(c.cloud, c.list);
+    const auto fromRow = [&](scalar x) {
+        return (c.cloud.x[i].xyz() - dx * vector(x, -0.5, 0)).norm();
+    };
+    const vec4 start = c.cloud.x[i];
+    const scalar left = fromRow(6.5), right = fromRow(7.5);
+    for (const scalar off : {scalar(0), least})
+    {
+        c.cloud.x[i] = start;
+        const particleShifting shifting(dictionary::fromString(""), "still", {}, off);
+        shifting.shift(c.cloud, c.list, c.B, dt, noLimit, nullptr);
+        const scalar nearer = std::min(fromRow(6.5) - left, fromRow(7.5) - right);
+        CHECK((nearer > -1e-12 * dx) == (off > 0));
+    }
+
+    for (label k = 0; k < c.cloud.n(); ++k) c.cloud.Up[k] = vec4{};
+    for (const scalar solid : {0.4, least})
+    {
+        c.cloud.x[i] = vec4::from(dx * vector(7, 0.2, 0));
+        c.cloud.Up[i] = vec4::from(vector(0, -0.4 * dx / dt, 0));
+        c.list.build(c.cloud, *smoothingKernel::New("WendlandC2", 2, 1.3 * dx));
+        List<vec4> toSolid;
+        limitApproach(c.cloud, c.list, 0.4 * dx, solid * dx, dt, toSolid);
+        const scalar end = c.cloud.x[i][1] + dt * c.cloud.Up[i][1];
+        if (solid < least) CHECK(end == doctest::Approx(-0.2 * dx));
+        else CHECK(end > (std::sqrt(least * least - 0.25) - 0.5 - 0.05) * dx);
+    }
 }
 
 TEST_CASE(
@@ -252,7 +293,7 @@ TEST_CASE(
     list.build(cloud, *kernel);
     const List<vec4> before = cloud.Up;
     List<vec4> toSolid;
-    CHECK(limitApproach(cloud, list, 0.04, 0.04, toSolid) > 10);
+    CHECK(limitApproach(cloud, list, 0.04, 0.04, 0.04, toSolid) > 10);
     vector momentum = vector::Zero();
     scalar gained = 0, given = 0;
     for (label i = 0; i < cloud.n(); ++i)

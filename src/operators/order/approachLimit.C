@@ -41,14 +41,17 @@ approach approachOf(const particleCloud& cloud, label i, label j, scalar closest
 
 }  // namespace
 
-label limitApproach(particleCloud& cloud, const neighbourList& list, scalar closest, scalar dt,
-                    List<vec4>& toSolid)
+label limitApproach(particleCloud& cloud, const neighbourList& list, scalar closest,
+                    scalar besideSolid, scalar dt, List<vec4>& toSolid)
 {
+    const auto leastOf = [&](label j) {
+        return cloud.ownerOf(j) < cloud.nSolid() ? besideSolid : closest;
+    };
     toSolid.assign(cloud.nSolid(), vec4{});
     const label first = cloud.nSolid(), nFluid = cloud.n() - first;
     List<char> meets(nFluid, 0);
     label exchanges = 0;
-    const scalar reach = closest + 2 * cloud.maxSpeed() * dt;
+    const scalar reach = std::max(closest, besideSolid) + 2 * cloud.maxSpeed() * dt;
     for (int sweep = 0; sweep < mostSweeps; ++sweep)
     {
         parallelFor(nFluid, [&](label begin, label end) {
@@ -57,7 +60,7 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
                 const label i = first + k;
                 meets[k] = anyNeighbour<among::media>(list, i, [&](pairIndex, label j) {
                     return magSqr(cloud.x[i].s - cloud.x[j].s) < reach * reach &&
-                           approachOf(cloud, i, j, closest, dt).lacks > 0;
+                           approachOf(cloud, i, j, leastOf(j), dt).lacks > 0;
                 });
             }
         });
@@ -68,7 +71,7 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
             if (!meets[k]) continue;
             forNeighbours<among::media>(list, i, [&](pairIndex, label j) {
                 const label owner = cloud.ownerOf(j);
-                const auto [lacks, n] = approachOf(cloud, i, j, closest, dt);
+                const auto [lacks, n] = approachOf(cloud, i, j, leastOf(j), dt);
                 const bool isSolid = owner < first;
                 const int free = !cloud.uFixed[i] + (!isSolid && !cloud.uFixed[owner]);
                 if (!(lacks > 0) || free == 0) return;

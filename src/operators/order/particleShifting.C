@@ -37,11 +37,24 @@ ISPF_INLINE vector slopeOfSum(const particleCloud& cloud, const neighbourList& l
     return {sum[0], sum[1], sum[2]};
 }
 
+// Takes off dr what leads i nearer to solid particles within `reach`: their layer has no room for it
+void keepOff(const particleCloud& cloud, const neighbourList& list, label i, scalar reach,
+             vector& dr)
+{
+    forNeighbours<among::others>(list, i, [&](pairIndex, label j) {
+        const label owner = cloud.ownerOf(j);
+        if (owner < 0 || cloud.isFluid(owner)) return;
+        const vector d = cloud.x[i].xyz() - cloud.x[j].xyz();
+        const scalar r = d.norm(), along = dr.dot(d) / r;
+        if (r < reach && along < 0) dr -= along / r * d;
+    });
+}
+
 }  // namespace
 
 particleShifting::particleShifting(const dictionary& dict, const word& frame,
-                                   const shiftStiffness& stiffness)
-    : stiffness_(stiffness)
+                                   const shiftStiffness& stiffness, scalar offSolid)
+    : offSolid_(offSolid), stiffness_(stiffness)
 {
     if (dict.chooseOrDefault("type", {"Xu", "none"}, "Xu") == "none") return;
     constant_ = dict.getInRangeOrDefault("constant", 0, 1, 0.2);
@@ -165,6 +178,7 @@ scalar particleShifting::shift(particleCloud& cloud, const neighbourList& list,
             const label i = first + k;
             if (rowOf<among::all>(list, i).size() == 0 || (leaveAlone && leaveAlone(i))) continue;
             vector dr = alpha * crowding(cloud, list, i) - beta * slopeOfSum(cloud, list, i);
+            if (offSolid_ > 0) keepOff(cloud, list, i, offSolid_ * dx, dr);
             if (const scalar size = dr.norm(); size > most) dr *= most / size;
             shifts[k] = dr, v[k] = limitedChange(cloud, list, correction.same[i], i, dr);
         }

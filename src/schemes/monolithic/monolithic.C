@@ -84,7 +84,8 @@ public:
           maxIter_(e.maxIter),
           time_(c),
           shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c),
-                    shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx))
+                    shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx),
+                    c.structureProperties.found("contact") ? closedGaps::besideSolid : 0)
     {
         time_.keepLevels();
         if (c.structure)
