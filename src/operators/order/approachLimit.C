@@ -52,41 +52,45 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
     List<char> meets(nFluid, 0);
     label exchanges = 0;
     const scalar reach = std::max(closest, besideSolid) + 2 * cloud.maxSpeed() * dt;
+    const auto lacks = [&](label i, label j) {
+        return magSqr(cloud.x[i].s - cloud.x[j].s) < reach * reach &&
+               approachOf(cloud, i, j, leastOf(j), dt).lacks > 0;
+    };
+    const auto exchange = [&](label i, label j) {
+        const label owner = cloud.ownerOf(j);
+        const auto [lacks, n] = approachOf(cloud, i, j, leastOf(j), dt);
+        const bool isSolid = owner < first;
+        const int free = !cloud.uFixed[i] + (!isSolid && !cloud.uFixed[owner]);
+        if (!(lacks > 0) || free == 0) return;
+        const vector change = lacks / free * n;
+        if (!cloud.uFixed[i]) cloud.Up[i].s += vec4::from(change).s;
+        // if j is an image of i, i itself has got the change already
+        if (owner != i && !cloud.uFixed[owner])
+            (isSolid ? toSolid[owner] : cloud.Up[owner]).s -=
+                vec4::from(j < cloud.n() ? change : vector(cloud.ruleOf(j).R.transpose() * change))
+                    .s;
+        ++exchanges;
+    };
     for (int sweep = 0; sweep < mostSweeps; ++sweep)
     {
         parallelFor(nFluid, [&](label begin, label end) {
             for (label k = begin; k < end; ++k)
-            {
-                const label i = first + k;
-                meets[k] = anyNeighbour<among::media>(list, i, [&](pairIndex, label j) {
-                    return magSqr(cloud.x[i].s - cloud.x[j].s) < reach * reach &&
-                           approachOf(cloud, i, j, leastOf(j), dt).lacks > 0;
-                });
-            }
+                meets[k] = anyNeighbour<among::media>(
+                    list, first + k, [&](pairIndex, label j) { return lacks(first + k, j); });
         });
-        if (std::find(meets.begin(), meets.end(), 1) == meets.end()) break;
+        if (std::find(meets.begin(), meets.end(), 1) == meets.end()) return exchanges;
         for (label k = 0; k < nFluid; ++k)
-        {
-            const label i = first + k;
-            if (!meets[k]) continue;
-            forNeighbours<among::media>(list, i, [&](pairIndex, label j) {
-                const label owner = cloud.ownerOf(j);
-                const auto [lacks, n] = approachOf(cloud, i, j, leastOf(j), dt);
-                const bool isSolid = owner < first;
-                const int free = !cloud.uFixed[i] + (!isSolid && !cloud.uFixed[owner]);
-                if (!(lacks > 0) || free == 0) return;
-                const vector change = lacks / free * n;
-                if (!cloud.uFixed[i]) cloud.Up[i].s += vec4::from(change).s;
-                // if j is an image of i, i itself has got the change already
-                if (owner != i && !cloud.uFixed[owner])
-                    (isSolid ? toSolid[owner] : cloud.Up[owner]).s -=
-                        vec4::from(j < cloud.n() ? change
-                                                 : vector(cloud.ruleOf(j).R.transpose() * change))
-                            .s;
-                ++exchanges;
-            });
-        }
+            if (meets[k])
+                forNeighbours<among::media>(list, first + k,
+                                            [&](pairIndex, label j) { exchange(first + k, j); });
     }
+    // Fluid that presses from the other side does not press it into a solid: these pairs come last
+    for (int sweep = 0; first > 0 && sweep < mostSweeps; ++sweep)
+        for (label k = 0; k < nFluid; ++k)
+            forNeighbours<among::others>(list, first + k, [&](pairIndex, label j) {
+                const label owner = cloud.ownerOf(j);
+                if (owner >= 0 && owner < first && lacks(first + k, j)) exchange(first + k, j);
+            });
     return exchanges;
 }
 

@@ -12,6 +12,8 @@ namespace
 
 // Way of the fastest particle in a step [dx] from which on the second term of (8.30) is taken in full (doc/constants.md)
 constexpr scalar inFull = 0.1;
+// A fluid particle between two or three solid ones needs a few
+constexpr int mostSweeps = 10;
 
 // sum_j (r_mean/r_ij)^2 n_ij = r_mean^2 sum_j x_ij / r_ij^3, over all neighbours of i
 ISPF_INLINE vector crowding(const particleCloud& cloud, const neighbourList& list, label i)
@@ -37,24 +39,37 @@ ISPF_INLINE vector slopeOfSum(const particleCloud& cloud, const neighbourList& l
     return {sum[0], sum[1], sum[2]};
 }
 
-// Takes off dr what leads i nearer to solid particles within `reach`: their layer has no room for it
+// Makes dr lead i away from solid particles nearer than `reach`, by what it lacks or by `most`: their layer has no room for it.
+// Zero if several leave it no way
 void keepOff(const particleCloud& cloud, const neighbourList& list, label i, scalar reach,
-             vector& dr)
+             scalar most, vector& dr)
 {
-    forNeighbours<among::others>(list, i, [&](pairIndex, label j) {
-        const label owner = cloud.ownerOf(j);
-        if (owner < 0 || cloud.isFluid(owner)) return;
-        const vector d = cloud.x[i].xyz() - cloud.x[j].xyz();
-        const scalar r = d.norm(), along = dr.dot(d) / r;
-        if (r < reach && along < 0) dr -= along / r * d;
-    });
+    bool changed = true;
+    for (int sweep = 0; changed; ++sweep)
+    {
+        if (sweep == mostSweeps)
+        {
+            dr.setZero();
+            return;
+        }
+        changed = false;
+        forNeighbours<among::others>(list, i, [&](pairIndex, label j) {
+            const label owner = cloud.ownerOf(j);
+            if (owner < 0 || cloud.isFluid(owner)) return;
+            const vector d = cloud.x[i].xyz() - cloud.x[j].xyz();
+            const scalar r = d.norm(), along = dr.dot(d) / r, wanted = std::min(reach - r, most);
+            if (!(wanted > 0) || r == 0 || along > 0.5 * wanted) return;
+            dr += (wanted - along) / r * d;
+            changed = true;
+        });
+    }
 }
 
 }  // namespace
 
 particleShifting::particleShifting(const dictionary& dict, const word& frame,
-                                   const shiftStiffness& stiffness, scalar offSolid)
-    : offSolid_(offSolid), stiffness_(stiffness)
+                                   const shiftStiffness& stiffness)
+    : stiffness_(stiffness)
 {
     if (dict.chooseOrDefault("type", {"Xu", "none"}, "Xu") == "none") return;
     constant_ = dict.getInRangeOrDefault("constant", 0, 1, 0.2);
@@ -178,7 +193,7 @@ scalar particleShifting::shift(particleCloud& cloud, const neighbourList& list,
             const label i = first + k;
             if (rowOf<among::all>(list, i).size() == 0 || (leaveAlone && leaveAlone(i))) continue;
             vector dr = alpha * crowding(cloud, list, i) - beta * slopeOfSum(cloud, list, i);
-            if (offSolid_ > 0) keepOff(cloud, list, i, offSolid_ * dx, dr);
+            if (first > 0) keepOff(cloud, list, i, closestToSolid() * dx, std::min(way, most), dr);
             if (const scalar size = dr.norm(); size > most) dr *= most / size;
             shifts[k] = dr, v[k] = limitedChange(cloud, list, correction.same[i], i, dr);
         }

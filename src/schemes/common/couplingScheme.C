@@ -211,7 +211,7 @@ void couplingScheme::shift(const particleShifting& shifting, scalar dt)
         const scalar closest = shifting.on() ? shifting.closest() * c_.cloud.dx : 0;
         if (closest > 0)
         {
-            limitApproach(c_.cloud, c_.list, closest, shifting.besideSolid() * c_.cloud.dx, dt,
+            limitApproach(c_.cloud, c_.list, closest, shifting.closestToSolid() * c_.cloud.dx, dt,
                           toSolid_);
             c_.walls->limitApproach(c_.cloud, 0.5 * closest, dt);
         }

@@ -84,8 +84,7 @@ public:
           maxIter_(e.maxIter),
           time_(c),
           shifting_(c.solution.subOrEmptyDict("shifting"), shiftingFrame(c),
-                    shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx),
-                    c.structureProperties.found("contact") ? closedGaps::besideSolid : 0)
+                    shiftStiffness::ofLattice(*c.kernel, c.cloud.nDims, c.cloud.dx))
     {
         time_.keepLevels();
         if (c.structure)
