@@ -83,6 +83,7 @@ struct firstStep
     fsiCase c;
     List<tensor> F;
     blockMatrix3 K;
+    List<scalar> stiffness;
     solidSurface surface;
     volumeConstraint volume;
     coupledSystem system;
@@ -94,12 +95,14 @@ struct firstStep
         c.structure->deformationGradient(c.cloud.x, F);
         K = c.structure->tangentPattern();
         c.structure->assembleTangent(c.cloud.x, tangentKind::positive, K);
+        for (const tensor& diagonal : K.diagonal)
+            stiffness.push_back(diagonal.trace() / c.cloud.nDims);
         surface.initialise(c.cloud, c.list, F);
         volume.setup(F);
         surface.setup(c.cloud, c.list, *c.kernel, volume.cofactor());
         setup();
     }
-    void setup() { system.setup(0.01, &volume, &surface, &K); }
+    void setup() { system.setup(0.01, &volume, &surface, &K, &stiffness); }
 };
 
 }  // namespace

@@ -46,8 +46,6 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
     images_ = s.group.symmetryFactor();
     if (inflow::given(dict))
     {
-        // they may stay when the entry p goes
-        for (const word key : {"backflow", "outlet"}) dict.found(key);
         inflow_ = std::make_unique<inflow>(
             dict, caseFolder,
             inflow::place{mesh_, s.isHeld, images_, outward,

@@ -14,7 +14,8 @@ constexpr scalar exactness = 1e-4;
 
 }  // namespace
 
-// kept: Q and dQ/dp of the last step, then the state of the kind
+// kept: Q of the last step, the number of values of the kind's state, these values, and dQ/dp.  An outlet of another kind takes
+// Q alone
 scalar outletPressure::begin(const outlet::step& s, const List<scalar>& kept)
 {
     step_ = s;
@@ -22,9 +23,13 @@ scalar outletPressure::begin(const outlet::step& s, const List<scalar>& kept)
     tried_ = 0;
     flow_ = 0;
     const size_t own = kind_->state().size();
-    if (kept.size() >= 1 + own)
-        flow_ = kept[0], Y_.assign(kept.begin() + 1, kept.end() - own),
-        kind_->restore(List<scalar>(kept.end() - own, kept.end()));
+    if (!kept.empty()) flow_ = kept[0];
+    if (kept.size() >= 2 + own && kept[1] == scalar(own))
+    {
+        const auto state = kept.begin() + 2, rest = state + own;
+        kind_->restore(List<scalar>(state, rest));
+        Y_.assign(rest, kept.end());
+    }
     return p_ = kind_->pressure(s, flow_);
 }
 
@@ -79,9 +84,12 @@ List<scalar> outletPressure::accept(const outlet::step& s, scalar Q)
 {
     again_ = false;
     kind_->accept({s.start, s.end, step_.inertia}, Q);
+    const List<scalar> state = kind_->state();
     List<scalar> kept = {Q};
+    if (state.empty() && Y_.empty()) return kept;
+    kept.push_back(scalar(state.size()));
+    kept.insert(kept.end(), state.begin(), state.end());
     kept.insert(kept.end(), Y_.begin(), Y_.end());
-    for (const scalar s : kind_->state()) kept.push_back(s);
     return kept;
 }
 

@@ -4,20 +4,27 @@
 namespace ispf
 {
 
+// Clamped particles have no tangent among themselves: they get the mean of free ones
+template <class Entry>
+scalar coupledSystem::meanOfFree(const Entry& entry, bool any) const
+{
+    const auto [n, sum] = sumsOf(0, any ? c_.cloud.nSolid() : 0, [&](label i) {
+        return c_.cloud.uFixed[i] ? std::array<scalar, 2>{} : std::array<scalar, 2>{1, entry(i)};
+    });
+    return n > 0 ? sum / n : 0;
+}
+
 void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solidSurface* surface,
-                          const blockMatrix3* K, const List<scalar>& chi)
+                          const blockMatrix3* K, const List<scalar>* stiffness,
+                          const List<scalar>& chi)
 {
     const particleCloud& cloud = c_.cloud;
     dt_ = dt, K_ = K;
     rows_.setup(c_.cloud, c_.list, c_.correction, *c_.kernel, volume, surface);
     weaken(chi);
     const List<scalar>& viscous = rows_.viscous().sum();
-    // clamped particles have no tangent among themselves: they get the mean diagonal of free ones
-    const auto [nFree, sum] = sumsOf(0, K ? cloud.nSolid() : 0, [&](label i) {
-        return cloud.uFixed[i] ? std::array<scalar, 2>{}
-                               : std::array<scalar, 2>{1, K->diagonal[i].trace() / cloud.nDims};
-    });
-    const scalar meanTangent = nFree > 0 ? sum / nFree : 0;
+    const scalar meanTangent =
+        meanOfFree([&](label i) { return K->diagonal[i].trace() / cloud.nDims; }, K != nullptr);
     diagonal_.resize(cloud.n()), tau_.resize(cloud.n());
     forEach(0, cloud.n(), [&](label i) {
         diagonal_[i] = inertia(i) - viscousFactor() * viscous[i];
@@ -33,10 +40,25 @@ void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solid
                           return cloud.volume() / (inertiaAlone - viscousFactor() * viscous[i]);
                       }) /
                 scalar(cloud.n() - cloud.nSolid());
-    rows_.setTau(tau_, fluidTau_);
+    rows_.setTau(stabiliserTau(stiffness), fluidTau_);
     outlets_.setup(cloud, c_.walls->outletLinks(), dt / (c_.rho * cloud.dx));
     enclosed_.setup([this](const List<vec4>& phi, List<vec4>& gp) { rows_.solidGradient(phi, gp); },
                     surface);
+}
+
+// V/A_ii without the viscosity of the solid: at rest it has no stress, and the error that the stabiliser makes there must not
+// depend on it, (7.22)
+List<scalar> coupledSystem::stabiliserTau(const List<scalar>* stiffness) const
+{
+    List<scalar> tau = tau_;
+    if (!stiffness) return tau;
+    const scalar mean = meanOfFree([&](label i) { return (*stiffness)[i]; }, true);
+    forEach(0, c_.cloud.nSolid(), [&](label i) {
+        const scalar k = c_.cloud.uFixed[i] ? mean : (*stiffness)[i];
+        tau[i] =
+            c_.cloud.volume() / (inertia(i) - viscousFactor() * rows_.viscous().sum()[i] + dt_ * k);
+    });
+    return tau;
 }
 
 // Keeps chi, and weakens the fluid's stabiliser where it resists, (7.15)

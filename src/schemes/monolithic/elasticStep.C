@@ -42,6 +42,10 @@ void elasticStep::begin(List<vec4> x0, scalar tau, const List<scalar>& p)
     outside_.clear(), resists_.clear(), contact_ = nullptr;
     structure_->force(x0_, force_);
     structure_->assembleTangent(x0_, tangentKind::positive, p, K_);
+    stiffness_.resize(structure_->n());
+    forEach(0, structure_->n(), [&](label i) {
+        stiffness_[i] = K_.diagonal[i].trace() / structure_->reference().nDims;
+    });
     if (structure_->damps()) structure_->assembleDamping(x0_, D_);
     if (newton()) keepResistance(p);
     if (structure_->damps()) K_.addScaled(1 / tau_, D_);

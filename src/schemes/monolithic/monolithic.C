@@ -241,8 +241,9 @@ void monolithic::assemble()
     c_.time.stages.in("operators", [&] {
         const List<scalar> chi = zones_ ? zones_->chi() : List<scalar>();
         if (c_.structure)
-            system_.setup(time_.tau(), volume_.get(), &surface_, &elastic_.tangent(), chi);
-        else system_.setup(time_.tau(), nullptr, nullptr, nullptr, chi);
+            system_.setup(time_.tau(), volume_.get(), &surface_, &elastic_.tangent(),
+                          &elastic_.stiffness(), chi);
+        else system_.setup(time_.tau(), nullptr, nullptr, nullptr, nullptr, chi);
     });
     c_.time.stages.in("preconditioner", [&] { preconditioner_.setup(); });
 }

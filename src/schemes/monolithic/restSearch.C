@@ -183,7 +183,7 @@ scalar restSearch::pass()
     system.setStep(c_.time.value(), c_.time.value());
     elasticStep elastic(c_.structure.get(), elasticStep::entries(dictionary()));
     setForces(elastic, system, tau);
-    system.setup(tau, volume_.get(), &surface_, &elastic.tangent());
+    system.setup(tau, volume_.get(), &surface_, &elastic.tangent(), &elastic.stiffness());
     monolithicPreconditioner preconditioner(system, preconditioner_);
     preconditioner.setup();
 

@@ -160,6 +160,17 @@ TEST_CASE(
     CHECK(bend({2, 10, 3.5}, material).tip < 0.1);
 }
 
+TEST_CASE("a viscous strip comes to rest as it would without its viscosity")
+{
+    const strip s = {4, 20, 1.75};
+    const auto material = [](scalar viscosity) {
+        return "structureModel totalLagrangian; material { type neoHookean; G " + str(G) +
+               "; viscosity " + str(viscosity) + "; }";
+    };
+    const scalar tip = bend(s, material(0)).tip;
+    CHECK(bend(s, material(4 * G * dt)).tip == doctest::Approx(tip).epsilon(1e-3));
+}
+
 TEST_CASE("deep in a clamp the solid has no pressure, and none is needed")
 {
     const strip s = {4, 20, 1.75, 12};
