@@ -86,11 +86,15 @@ label limitApproach(particleCloud& cloud, const neighbourList& list, scalar clos
     }
     // Fluid that presses from the other side does not press it into a solid: these pairs come last
     for (int sweep = 0; first > 0 && sweep < mostSweeps; ++sweep)
+    {
+        const label before = exchanges;
         for (label k = 0; k < nFluid; ++k)
             forNeighbours<among::others>(list, first + k, [&](pairIndex, label j) {
                 const label owner = cloud.ownerOf(j);
                 if (owner >= 0 && owner < first && lacks(first + k, j)) exchange(first + k, j);
             });
+        if (exchanges == before) break;
+    }
     return exchanges;
 }
 

@@ -40,7 +40,7 @@ ISPF_INLINE vector slopeOfSum(const particleCloud& cloud, const neighbourList& l
 }
 
 // Makes dr lead i away from solid particles nearer than `reach`, by what it lacks or by `most`: their layer has no room for it.
-// Zero if several leave it no way
+// The sweeps end once dr leads away from each by half of that.  dr is zero if several leave it no way
 void keepOff(const particleCloud& cloud, const neighbourList& list, label i, scalar reach,
              scalar most, vector& dr)
 {
