@@ -47,31 +47,41 @@ void hydrostaticPart::setStep(scalar t0, scalar t1)
     before_ = part(c_.bodyForceAt(t0)), after_ = part(c_.bodyForceAt(t1));
 }
 
-// Mean of p - rho a.x over particles with given p; 0 without a body force
-scalar hydrostaticPart::givenLevel(const particleCloud& cloud) const
+// Mean of p(i) - rho a.x over particles with given p, 0 if there are none
+template <class Pressure>
+scalar hydrostaticPart::meanOfGiven(const particleCloud& cloud, const vector& a,
+                                    const Pressure& p) const
 {
-    if (during_.isZero(0)) return 0;
     const auto [n, sum] = sumsOf(0, cloud.n(), [&](label i) -> std::array<scalar, 2> {
         if (!cloud.pFixed[i]) return {};
-        return {1, cloud.pGiven[i] - c_.rho * during_.dot(cloud.x[i].xyz())};
+        return {1, p(i) - c_.rho * a.dot(cloud.x[i].xyz())};
     });
     return n > 0 ? sum / n : 0;
 }
 
-void hydrostaticPart::take(particleCloud& cloud)
+// p loses the level that it has at the step's start.  Else a change of the given pressures would change all p' at once, and what
+// the solver leaves is in proportion to the error of its guess
+void hydrostaticPart::take(particleCloud& cloud, bool level)
 {
-    level_ = givenLevel(cloud);
-    add(cloud, before_, level_, -1);
-}
-
-void hydrostaticPart::add(particleCloud& cloud, const vector& toState, scalar level,
-                          scalar sign) const
-{
-    if (toState.isZero(0) && during_.isZero(0)) return;
+    const bool takes = level || !during_.isZero(0);
+    level_ = takes ? meanOfGiven(cloud, during_, [&](label i) { return cloud.pGiven[i]; }) : 0;
+    const scalar old =
+        takes ? meanOfGiven(cloud, before_, [&](label i) { return cloud.Up[i][3]; }) : 0;
+    if (!takes && before_.isZero(0)) return;
     forEach(0, cloud.n(), [&](label i) {
         const vector x = cloud.x[i].xyz();
-        cloud.Up[i][3] += sign * (c_.rho * toState.dot(x) + level);
-        cloud.pGiven[i] += sign * (c_.rho * during_.dot(x) + level);
+        cloud.Up[i][3] -= c_.rho * before_.dot(x) + old;
+        cloud.pGiven[i] -= c_.rho * during_.dot(x) + level_;
+    });
+}
+
+void hydrostaticPart::giveBack(particleCloud& cloud) const
+{
+    if (!acts() && after_.isZero(0)) return;
+    forEach(0, cloud.n(), [&](label i) {
+        const vector x = cloud.x[i].xyz();
+        cloud.Up[i][3] += c_.rho * after_.dot(x) + level_;
+        cloud.pGiven[i] += c_.rho * during_.dot(x) + level_;
     });
 }
 

@@ -93,7 +93,7 @@ public:
             gaps_ = closedGaps::New(c.structureProperties);
             contact_ = std::make_unique<solidContact>(c);
             energy_.addElastic([this](const List<vec4>& x) { return contact_->energy(x); });
-            outside_ = outsideWall::New(c.structureProperties, c.caseFolder());
+            outside_ = std::make_unique<outsideWall>(c.structureProperties, c.caseFolder());
         }
         addSources(e);
     }
@@ -107,6 +107,8 @@ private:
     void begin(scalar t, scalar dt);
     void structureState();
     void elasticState();
+    bool mostlyWet() const;
+    bool outsideActs() const { return outside_ && outside_->acts(system_.hydrostatic()); }
     void assemble();
     List<scalar> guess() const;
     void accept(const List<scalar>& z);
@@ -128,8 +130,8 @@ private:
     std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
     std::unique_ptr<solidContact> contact_;
-    std::unique_ptr<closedGaps> gaps_;      // null: fluid between solids is as elsewhere
-    std::unique_ptr<outsideWall> outside_;  // null: nothing is outside the solid
+    std::unique_ptr<closedGaps> gaps_;  // null: fluid between solids is as elsewhere
+    std::unique_ptr<outsideWall> outside_;
     List<tensor> F_;
     volumeSources sources_;
     List<scalar> q_;     // their sum in the step [1/s]
@@ -178,10 +180,19 @@ void monolithic::structureState()
     beginMemory(time_, time_.velocitiesAhead());
     c_.structure->deformationGradient(c_.cloud.x, F_);
     const List<isometry>& images = c_.structure->reference().images;
-    surface_.initialise(c_.cloud, c_.list, F_, images, bool(outside_));
+    surface_.initialise(c_.cloud, c_.list, F_, images);
     volume_->setup(F_);
     surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
+    outside_->find(surface_);
     if (gaps_) gaps_->close(c_, surface_);
+}
+
+// True if more of the solid's surface is before fluid than is open.  The level of p then acts on the smaller part
+bool monolithic::mostlyWet() const
+{
+    if (!c_.structure) return false;
+    const auto [wet, open] = surface_.wetAndOpen();
+    return wet > open;
 }
 
 // Call once the hydrostatic part of p is known
@@ -189,11 +200,11 @@ void monolithic::elasticState()
 {
     if (!c_.structure) return;
     const auto outsidePressure =
-        outside_ ? outside_->pressureAt(time_.times().pressures, system_.hydrostatic()) : nullptr;
+        outside_->pressureAt(time_.times().pressures, system_.hydrostatic());
     c_.cloud.fillGhosts(c_.cloud.Up, false);
     elastic_.begin(time_.elasticStart(c_.cloud), time_.tau(),
                    surface_.overSurface(c_.cloud.Up, *volume_, outsidePressure));
-    if (outside_)
+    if (outsidePressure)
     {
         outside_->setStep(c_, surface_, system_.hydrostatic(),
                           {time_.tau(), time_.times().pressures, time_.elasticStart(c_.cloud)});
@@ -320,7 +331,7 @@ void monolithic::begin(scalar t, scalar dt)
     if (contact_) contact_->find();
     energy_.begin(time_.startPlaces(cloud));
     structureState();
-    system_.hydrostatic().take(cloud);
+    system_.hydrostatic().take(cloud, mostlyWet());
     elasticState();
     setResistance();  // (1.10)
     time_.begin(cloud);
@@ -344,7 +355,7 @@ word monolithic::attempt(scalar t, scalar dt)
     energy_.weigh(time_.weight(), [&] {  // (7.4)
         system_.book(start, theta_, elastic_.force(), q_, energy_);
         const scalar lost = elastic_.dissipated(cloud.Up);
-        const scalar work = outside_ ? outside_->work(cloud, time_.tau()) : 0;
+        const scalar work = outsideActs() ? outside_->work(cloud, time_.tau()) : 0;
         energy_[energyLedger::springs] -= work + lost;
         energy_[energyLedger::forces] += work, energy_[energyLedger::viscosity] += lost;
     });

@@ -4,24 +4,34 @@
 namespace ispf
 {
 
-std::unique_ptr<outsideWall> outsideWall::New(const dictionary& structureProperties,
-                                              const word& caseFolder)
+outsideWall::outsideWall(const dictionary& structureProperties, const word& caseFolder)
+    : dict_(structureProperties.subOrEmptyDict("outside")),
+      given_(structureProperties.found("outside"))
 {
-    if (!structureProperties.found("outside")) return nullptr;
-    return std::make_unique<outsideWall>(structureProperties.subDict("outside"), caseFolder);
+    if (!given_) return;
+    stiffness_ = dict_.getInRangeOrDefault<scalar>("stiffness", 0, 1e30, 0);
+    damping_ = dict_.getInRangeOrDefault<scalar>("damping", 0, 1e30, 0);
+    if (dict_.found("pressure"))
+        pressure_ = Function1::New("pressure", dict_, caseFolder, dims::pressure);
+    dict_.refuseOthers({"pressure", "stiffness", "damping"});
+    if (dict_.empty())
+        structureProperties.fail("outside",
+                                 "It has no entry and no effect. Give a pressure, a stiffness or a "
+                                 "damping, or leave it away");
 }
 
-outsideWall::outsideWall(const dictionary& dict, const word& caseFolder)
-    : stiffness_(dict.getInRangeOrDefault<scalar>("stiffness", 0, 1e30, 0)),
-      damping_(dict.getInRangeOrDefault<scalar>("damping", 0, 1e30, 0))
+void outsideWall::find(const solidSurface& surface)
 {
-    if (dict.found("pressure"))
-        pressure_ = Function1::New("pressure", dict, caseFolder, dims::pressure);
-    dict.refuseOthers({"pressure", "stiffness", "damping"});
+    open_ = surface.wetAndOpen()[1] > 0;
+    if (given_ && !open_)
+        dict_.fail(dict_.keys().front(),
+                   "It acts where neither fluid nor wall is before the solid, and there is no such "
+                   "place here. Leave it away");
 }
 
 solidSurface::pressureAt outsideWall::pressureAt(scalar t, const hydrostaticPart& hydrostatic) const
 {
+    if (!acts(hydrostatic)) return nullptr;
     const scalar given = pressure_ ? pressure_->value(t) : 0;
     // the schemes solve for p less its hydrostatic part, (1.9)
     return [given, &hydrostatic](const vector& at) { return given - hydrostatic.at(at); };

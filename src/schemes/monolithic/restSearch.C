@@ -36,7 +36,7 @@ public:
           tolerance_(dict.getInRangeOrDefault("tolerance", 1e-12, 1e-2, 1e-4)),
           maxIter_(dict.getInRangeOrDefault<label>("maxIter", 1, 10000, 100)),
           dict_(dict),
-          outside_(outsideWall::New(c.structureProperties, c.caseFolder()))
+          outside_(c.structureProperties, c.caseFolder())
     {
         dict.refuseOthers({"pressures", "tolerance", "maxIter"});
     }
@@ -61,7 +61,7 @@ private:
     scalar tolerance_;
     label maxIter_;
     const dictionary& dict_;
-    std::unique_ptr<outsideWall> outside_;  // null: nothing is outside the solid
+    outsideWall outside_;
     std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
 };
@@ -143,8 +143,9 @@ void restSearch::lookAtShape()
     const List<isometry>& images = c_.structure->reference().images;
     volume_ = std::make_unique<volumeConstraint>(*c_.structure);
     volume_->setup(F);
-    surface_.initialise(cloud, c_.list, F, images, bool(outside_));
+    surface_.initialise(cloud, c_.list, F, images);
     surface_.setup(cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
+    outside_.find(surface_);
 }
 
 // Sets the forces and the tangent at the first shape
@@ -152,12 +153,12 @@ void restSearch::setForces(elasticStep& elastic, coupledSystem& system, scalar t
 {
     const scalar t = c_.time.value();
     const List<vec4> x(c_.cloud.x.begin(), c_.cloud.x.begin() + c_.cloud.nSolid());
-    const auto outsidePressure = outside_ ? outside_->pressureAt(t, system.hydrostatic()) : nullptr;
+    const auto outsidePressure = outside_.pressureAt(t, system.hydrostatic());
     c_.cloud.fillGhosts(c_.cloud.Up, false);
     elastic.begin(x, tau, surface_.overSurface(c_.cloud.Up, *volume_, outsidePressure));
-    if (!outside_) return;
-    outside_->setStep(c_, surface_, system.hydrostatic(), {tau, t, x});
-    elastic.addOutside(outside_->force(), outside_->resistance());
+    if (!outsidePressure) return;
+    outside_.setStep(c_, surface_, system.hydrostatic(), {tau, t, x});
+    elastic.addOutside(outside_.force(), outside_.resistance());
 }
 
 // det(dX/dx) - 1, over tau: the source with which the rest gets the volume of the image

@@ -17,6 +17,7 @@
 #include "hydrostaticPart.H"
 #include "projectionLimits.H"
 #include "shiftingFrame.H"
+#include "solidSides.H"
 #include "solverPerformance.H"
 #include "stepReport.H"
 #include "timeScheme.H"
@@ -38,6 +39,10 @@ const stateEntry<vector> pressureSlope{"pressureSlope"};
 
 namespace
 {
+
+// Open surface of a solid over that before fluid from which on the solid is bare: a few particles in the midst of packed ones
+// count as open by mistake
+constexpr scalar someOpen = 0.1;
 
 struct projectionEntries
 {
@@ -112,6 +117,7 @@ private:
 
     List<vec4> accelerations(const vector& slope, List<vec4>& spring) const;
     void checkPushed() const;
+    void refuseBareWalls();
     void addSlope(scalar sign, const vector& ofState);
     void begin(scalar t, scalar dt);
     void solve(const stencil& s, scalar dt);
@@ -125,6 +131,7 @@ private:
     particleShifting shifting_;
     volumeSources sources_;
     hydrostaticPart hydrostatic_;
+    bool looked_ = false;            // for bare walls
     vector slope_ = vector::Zero();  // of p along cyclic patches with a pressureDrop [Pa/m]
 };
 
@@ -221,12 +228,42 @@ void projection::solve(const stencil& s, scalar dt)
     sources_.book(dt);
 }
 
+// No equation has p = 0 where neither fluid nor wall is before a solid: the fluid on its other side would not load it
+void projection::refuseBareWalls()
+{
+    looked_ = true;
+    const particleCloud& cloud = c_.cloud;
+    const solidSides all(cloud, c_.list, c_.structure->reference().images);
+    const label nothing = label(cloud.zones.size());
+    scalar wet = 0, open = 0;
+    label first = -1;
+    for (label i = 0; i < cloud.nSolid(); ++i)
+    {
+        if (cloud.uFixed[i]) continue;
+        const solidSides::sides s = all.of(i);
+        for (const int k : {0, 1})
+        {
+            if (s.zone[k] < 0) continue;
+            (s.zone[k] == nothing ? open : wet) += s.area[k].norm();
+            if (s.zone[k] == nothing && first < 0) first = i;
+        }
+    }
+    if (!(wet > 0) || !(open > someOpen * wet)) return;
+    c_.structureProperties.fail(
+        "structureModel",
+        "Neither fluid nor wall is before the solid at " + cloud.describe(first) +
+            ", and other parts of it have fluid. Coupling projection has no pressure there, and "
+            "the "
+            "fluid would not load the solid. Take coupling monolithic, or put fluid on both sides");
+}
+
 // Places of the forces, u_0 and the neighbours there
 void projection::begin(scalar t, scalar dt)
 {
     particleCloud& cloud = c_.cloud;
     time_.start(cloud, t, dt);
     c_.time.stages.in("neighbours", [&] { c_.updateNeighbours(time_.times()); });
+    if (c_.structure && !looked_) refuseBareWalls();
     hydrostatic_.setStep(t, t + dt);
     slope_ = c_.walls->pressureSlope();
     energy_.begin(time_.startPlaces(cloud));

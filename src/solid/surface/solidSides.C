@@ -13,8 +13,8 @@ int fluidZone(const particleCloud& cloud, label j)
 }
 
 solidSides::solidSides(const particleCloud& cloud, const neighbourList& list,
-                       const List<isometry>& images, bool outside)
-    : cloud_(cloud), list_(list), outside_(outside)
+                       const List<isometry>& images)
+    : cloud_(cloud), list_(list)
 {
     if (!cloud.hasRigid()) return;
     List<vector> x;
@@ -101,9 +101,8 @@ solidSides::sides solidSides::of(label i) const
     });
     // in the midst of packed particles the kernel's sum has a gradient too, though nothing is absent
     constexpr scalar disorder = 0.15;  // doc/constants.md
-    if (outside_)
-        if (const vector absent = absentArea(i); absent.norm() > disorder * V / cloud_.dx)
-            areas.back() = absent;
+    if (const vector absent = absentArea(i); absent.norm() > disorder * V / cloud_.dx)
+        areas.back() = absent;
     for (const int k : {0, 1})
     {
         const auto most =

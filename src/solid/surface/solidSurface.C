@@ -23,14 +23,13 @@ constexpr const char* wayField[2] = {"surfaceWayA", "surfaceWayB"};     // {e0, 
 }  // namespace
 
 void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
-                              const List<tensor>& F, const List<isometry>& images,
-                              bool outside) const
+                              const List<tensor>& F, const List<isometry>& images) const
 {
     if (cloud.vectors.count(areaField[0])) return;
     for (const int s : {0, 1})
         for (const char* name : {areaField[s], wayField[s]})
             cloud.vectors[name].assign(cloud.n(), vec4{});
-    const solidSides all(cloud, list, images, outside);
+    const solidSides all(cloud, list, images);
     List<solidSides::sides> sides;
     for (label i = 0; i < cloud.nSolid(); ++i) sides.push_back(all.of(i));
     for (label z = 0; z <= label(cloud.zones.size()); ++z)
@@ -297,11 +296,10 @@ scalar solidSurface::meanPressure(const List<vec4>& up, const pressureAt& at) co
         for (const int s : {0, 1})
         {
             const sided& part = part_[s][i];
-            if (part.side < 0 && !part.outside) continue;
+            if (part.outside ? !at : part.side < 0) continue;
             const scalar A = part.S.norm();
             sum[1] += A;
-            if (!part.outside) sum[0] += A * pressureOn(s, i, up);
-            else if (at) sum[0] += A * at(cloud_->x[i].xyz() + part.e);
+            sum[0] += A * (part.outside ? at(cloud_->x[i].xyz() + part.e) : pressureOn(s, i, up));
         }
         return sum;
     });
@@ -314,6 +312,19 @@ scalar solidSurface::outsideArea(label k) const
     for (const int s : {0, 1})
         if (part_[s][k].outside) sum += areaAtRest(s, k).norm();
     return sum;
+}
+
+std::array<scalar, 2> solidSurface::wetAndOpen() const
+{
+    return sumsOf(0, cloud_->nSolid(), [&](label i) {
+        std::array<scalar, 2> sum = {};
+        for (const int s : {0, 1})
+        {
+            if (cloud_->uFixed[i] || (part_[s][i].side < 0 && !part_[s][i].outside)) continue;
+            sum[part_[s][i].outside] += areaAtRest(s, i).norm();
+        }
+        return sum;
+    });
 }
 
 // Calls visit(solid particle, number of its side, neighbour, weight)

@@ -101,6 +101,91 @@ TEST_CASE(
     CHECK(held - alone == relative(5e4 * (r - outerRadius) * outerRadius / r, 0.15));
 }
 
+// The level of the given p is taken off before the step: the area vectors of the ring do not add up to zero exactly
+TEST_CASE("a soft ring in a bath: the level of the pressure, 5 G, neither moves nor strains it")
+{
+    const auto shape = [](const word& p) {
+        ringCase ring("level", solid(""));
+        ring.files.boundary = "outside { type open; p " + p + "; }";
+        ring.files.write();
+        setContent(ring.files.path() + "/constant/structureProperties", solid(""));
+        capturedLog log;
+        Time time(ring.files.path());
+        fsiCase c(time);
+        const auto scheme = couplingScheme::New(c);
+        for (int step = 0; step < 20; ++step)
+        {
+            addArea(c, 0.1 * area / 20 / dt);
+            runSteps(c, *scheme, dt, 1);
+        }
+        return std::make_pair(List<vec4>(c.cloud.x.begin(), c.cloud.x.begin() + c.cloud.nSolid()),
+                              innerPressure(c.cloud));
+    };
+    const auto [zero, p0] = shape("0");
+    for (const word& p : {word("5e4"), word("table ((0 0) (0.1 5e4) (0.2 3e4))")})
+    {
+        CAPTURE(p);
+        const auto [x, inner] = shape(p);
+        scalar most = 0;
+        for (size_t i = 0; i < x.size(); ++i)
+            most = std::max(most, (x[i].xyz() - zero[i].xyz()).norm());
+        CHECK(most < 1e-3 * dx);
+        CHECK(inner - (p == "5e4" ? 5e4 : 3e4) == relative(p0, 0.01));
+    }
+}
+
+TEST_CASE("an entry outside that has no effect is refused")
+{
+    for (const bool bath : {true, false})
+    {
+        const ringCase ring("effect", solid(bath ? "outside { pressure 1; }" : "outside {}"), bath);
+        capturedLog log;
+        Time time(ring.files.path());
+        fsiCase c(time);
+        CHECK_ERROR(runSteps(c, *couplingScheme::New(c), dt, 1),
+                    bath ? "there is no such place here" : "It has no entry and no effect", 1);
+    }
+}
+
+TEST_CASE("projection refuses a solid with fluid on one side and nothing on the other")
+{
+    for (const bool bath : {true, false})
+    {
+        ringCase ring("bare", "structureModel springNetwork; E 100; links radius; radius 2.1;",
+                      bath);
+        ring.files.solution = "coupling projection;";
+        ring.files.write();
+        setContent(ring.files.path() + "/constant/structureProperties",
+                   "structureModel springNetwork; E 100; links radius; radius 2.1;");
+        capturedLog log;
+        Time time(ring.files.path());
+        fsiCase c(time);
+        const auto scheme = couplingScheme::New(c);
+        CHECK_ERROR(runSteps(c, *scheme, 1e-4, 1),
+                    bath ? "no error" : "Neither fluid nor wall is before the solid", 0);
+    }
+}
+
+// The pressure of the fluid is counted from its hydrostatic part; nothing around the ring is a pressure of zero all the same
+TEST_CASE("gravity: a ring with nothing around it is as one with no pressure around it")
+{
+    const auto fall = [](const word& outside) {
+        ringCase ring("gravity", solid(outside), false);
+        ring.files.g = "(0 -50 0)";
+        ring.files.write();
+        setContent(ring.files.path() + "/constant/structureProperties", solid(outside));
+        capturedLog log;
+        Time time(ring.files.path());
+        fsiCase c(time);
+        const auto scheme = couplingScheme::New(c);
+        runSteps(c, *scheme, dt, 10);
+        return c.cloud.Up[0][1];
+    };
+    const scalar fallen = fall("");
+    CHECK(fallen == relative(-50 * 10 * dt, 1e-3));
+    CHECK(fallen == relative(fall("outside { pressure 0; }"), 1e-6));
+}
+
 // Viscosity eta in a wall that is inflated at the rate A of the inner area: the integral of 4 eta v/r dr/r with v = A/(2 pi r).  A ring
 // of four layers on a lattice has a tenth less pressure than a round one, of either kind: the test is of their ratio
 TEST_CASE("a viscous wall: the pressure that its inflation needs beside that of the elastic wall")
