@@ -108,7 +108,7 @@ private:
     void structureState();
     void elasticState();
     bool mostlyWet() const;
-    bool outsideActs() const { return outside_ && outside_->acts(system_.hydrostatic()); }
+    bool outsideActs() { return outside_ && outside_->acts(system_.hydrostatic()); }
     void assemble();
     List<scalar> guess() const;
     void accept(const List<scalar>& z);
