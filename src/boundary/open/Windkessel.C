@@ -20,11 +20,13 @@ namespace
 class Windkessel : public outlet
 {
 public:
-    Windkessel(const dictionary& dict, const word& caseFolder)
+    Windkessel(const dictionary& dict, const word& caseFolder, const dimensionSet& flow)
         : p_(Function1::New("p", dict, caseFolder, dims::pressure)),
-          proximal_(dict.getInRangeOrDefault<scalar>("proximal", 0, 1e30, 0)),
-          distal_(dict.getInRange<scalar>("distal", 1e-30, 1e30)),
-          compliance_(dict.getInRange<scalar>("compliance", 1e-30, 1e30)),
+          proximal_(
+              dict.getInRangeOrDefault<scalar>("proximal", 0, 1e30, 0, dims::pressure / flow)),
+          distal_(dict.getInRange<scalar>("distal", 1e-30, 1e30, dims::pressure / flow)),
+          compliance_(dict.getInRange<scalar>("compliance", 1e-30, 1e30,
+                                              flow * dims::time / dims::pressure)),
           stored_(dict.getOrDefault<scalar>("initialPressure", 0, dims::pressure))
     {
     }
@@ -54,9 +56,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<outlet> newWindkessel(const dictionary& dict, const word& caseFolder)
+std::unique_ptr<outlet> newWindkessel(const dictionary& dict, const word& caseFolder,
+                                      const dimensionSet& flow)
 {
-    return std::make_unique<Windkessel>(dict, caseFolder);
+    return std::make_unique<Windkessel>(dict, caseFolder, flow);
 }
 
 }  // namespace ispf

@@ -7,9 +7,9 @@ namespace ispf
 
 using madeOutlet = std::unique_ptr<outlet>;
 
-madeOutlet newNonReflecting(const dictionary&, const word&);
-madeOutlet newResistance(const dictionary&, const word&);
-madeOutlet newWindkessel(const dictionary&, const word&);
+madeOutlet newNonReflecting(const dictionary&, const word&, const dimensionSet&);
+madeOutlet newResistance(const dictionary&, const word&, const dimensionSet&);
+madeOutlet newWindkessel(const dictionary&, const word&, const dimensionSet&);
 
 namespace
 {
@@ -27,23 +27,24 @@ private:
     std::unique_ptr<Function1> p_;
 };
 
-madeOutlet newFixedPressure(const dictionary& dict, const word& caseFolder)
+madeOutlet newFixedPressure(const dictionary& dict, const word& caseFolder, const dimensionSet&)
 {
     return std::make_unique<fixedPressure>(dict, caseFolder);
 }
 
 }  // namespace
 
-std::unique_ptr<outlet> outlet::New(const dictionary& dict, const word& caseFolder)
+std::unique_ptr<outlet> outlet::New(const dictionary& dict, const word& caseFolder,
+                                    const dimensionSet& flow)
 {
-    using maker = madeOutlet (*)(const dictionary&, const word&);
+    using maker = madeOutlet (*)(const dictionary&, const word&, const dimensionSet&);
     static const std::map<word, maker> kinds = {{"fixedPressure", newFixedPressure},
                                                 {"nonReflecting", newNonReflecting},
                                                 {"resistance", newResistance},
                                                 {"Windkessel", newWindkessel}};
     List<word> names;
     for (const auto& kind : kinds) names.push_back(kind.first);
-    return kinds.at(dict.chooseOrDefault("outlet", names, "fixedPressure"))(dict, caseFolder);
+    return kinds.at(dict.chooseOrDefault("outlet", names, "fixedPressure"))(dict, caseFolder, flow);
 }
 
 }  // namespace ispf

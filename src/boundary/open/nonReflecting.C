@@ -36,7 +36,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<outlet> newNonReflecting(const dictionary& dict, const word& caseFolder)
+std::unique_ptr<outlet> newNonReflecting(const dictionary& dict, const word& caseFolder,
+                                         const dimensionSet&)
 {
     return std::make_unique<nonReflecting>(dict, caseFolder);
 }

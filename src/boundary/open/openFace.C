@@ -44,15 +44,14 @@ openFace::openFace(const word& name, const dictionary& dict, const word& caseFol
         outward = mesh_.normal();
     }
     images_ = s.group.symmetryFactor();
+    const dimensionSet& flow = s.cloud.nDims == 3 ? dims::flowRate : dims::kinematicViscosity;
     if (inflow::given(dict))
     {
         inflow_ = std::make_unique<inflow>(
-            dict, caseFolder,
-            inflow::place{mesh_, s.isHeld, images_, outward,
-                          s.cloud.nDims == 3 ? dims::flowRate : dims::kinematicViscosity, s.nu});
+            dict, caseFolder, inflow::place{mesh_, s.isHeld, images_, outward, flow, s.nu});
         return;
     }
-    p_ = std::make_unique<outletPressure>(outlet::New(dict, caseFolder));
+    p_ = std::make_unique<outletPressure>(outlet::New(dict, caseFolder, flow));
     backflow_ = dict.getInRangeOrDefault("backflow", 0, 1, 0.5);
 }
 

@@ -59,10 +59,18 @@ struct openFace::census
 label openFace::removeBeyond(particleCloud& cloud) const
 {
     findFeet(cloud);
+    const auto left = [&](label i) {
+        return known_[i].foot.found && known_[i].foot.depth > depth_;
+    };
+    for (label i = 0; i < cloud.nSolid(); ++i)
+        if (!cloud.uFixed[i] && left(i))
+            throw fatalError("The solid leaves through the open face " + name_ + " with " +
+                             cloud.describe(i) +
+                             ". Only fluid can. End the run before, or move the face away");
     List<char> gone(cloud.n(), 0);
     label kept = cloud.nSolid();
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
-        if (known_[i].foot.found && known_[i].foot.depth > depth_) gone[i] = 1;
+        if (left(i)) gone[i] = 1;
         else known_[kept++] = known_[i];
     const label n = cloud.n() - kept;
     if (n > 0) cloud.remove(gone);

@@ -15,9 +15,9 @@ namespace
 class resistance : public outlet
 {
 public:
-    resistance(const dictionary& dict, const word& caseFolder)
+    resistance(const dictionary& dict, const word& caseFolder, const dimensionSet& flow)
         : p_(Function1::New("p", dict, caseFolder, dims::pressure)),
-          R_(dict.getInRange<scalar>("resistance", 0, 1e30))
+          R_(dict.getInRange<scalar>("resistance", 0, 1e30, dims::pressure / flow))
     {
     }
     scalar pressure(const step& s, scalar Q) const override { return p_->value(s.end) + R_ * Q; }
@@ -30,9 +30,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<outlet> newResistance(const dictionary& dict, const word& caseFolder)
+std::unique_ptr<outlet> newResistance(const dictionary& dict, const word& caseFolder,
+                                      const dimensionSet& flow)
 {
-    return std::make_unique<resistance>(dict, caseFolder);
+    return std::make_unique<resistance>(dict, caseFolder, flow);
 }
 
 }  // namespace ispf

@@ -9,8 +9,10 @@ outsideWall::outsideWall(const dictionary& structureProperties, const word& case
       given_(structureProperties.found("outside"))
 {
     if (!given_) return;
-    stiffness_ = dict_.getInRangeOrDefault<scalar>("stiffness", 0, 1e30, 0);
-    damping_ = dict_.getInRangeOrDefault<scalar>("damping", 0, 1e30, 0);
+    stiffness_ = dict_.getInRangeOrDefault<scalar>("stiffness", 0, 1e30, 0,
+                                                   dims::pressure * dims::perLength);
+    damping_ =
+        dict_.getInRangeOrDefault<scalar>("damping", 0, 1e30, 0, dims::pressure / dims::velocity);
     if (dict_.found("pressure"))
         pressure_ = Function1::New("pressure", dict_, caseFolder, dims::pressure);
     dict_.refuseOthers({"pressure", "stiffness", "damping"});

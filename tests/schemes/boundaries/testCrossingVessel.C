@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A soft channel with nothing outside, clamped at its ends.  The ends extend beyond the open faces, through which a pressure
 // drives fluid to and fro
+#include "boxCase.H"
 #include "capturedLog.H"
 #include "caseOnDisk.H"
+#include "core/errorOf.H"
 #include "relative.H"
 
 #include <cmath>
@@ -127,4 +129,32 @@ TEST_CASE("a vessel that ends at an open face leaves what is beyond without a wa
     Time time(files.path());
     CHECK_THROWS_WITH_AS(fsiCase c(time), doctest::Contains("reach 3 dx beyond the face"),
                          fatalError);
+}
+
+TEST_CASE("a free disc that the flow takes out of an open face ends the run, with its place")
+{
+    boxCase box;
+    box.coupling = "monolithic", box.velocity = {0.1, 0, 0};
+    box.patch = {"type open; velocity 0.1;", "type open; p 0;", "type wall; slip yes;",
+                 "type wall; slip yes;"};
+    caseOnDisk files("leavingDisc");
+    box.write(files);
+    particleTable& t = files.particles();
+    const particleTable all = t;
+    size_t n = 0;
+    for (const bool solid : {true, false})  // solids first
+        for (const vector& x : all.x)
+            if (((x - vector(24e-3, 6e-3, 0)).norm() < 2.5e-3) == solid)
+                t.x[n] = x, t.integers["zone"][n] = solid, ++n;
+    t.attributes["zones"] = "water disc", t.attributes["phases"] = "fluid solid";
+    files.write();
+    setContent(files.path() + "/constant/structureProperties",
+               "structureModel totalLagrangian; material { type neoHookean; G 1000; }");
+    capturedLog log;
+    Time time(files.path());
+    fsiCase c(time);
+    const auto scheme = couplingScheme::New(c);
+    runSteps(c, *scheme, 2e-3, 5);
+    CHECK_ERROR(runSteps(c, *scheme, 2e-3, 60), "leaves through the open face right with particle",
+                0);
 }

@@ -141,7 +141,7 @@ TEST_CASE("a run that is continued with an outlet of another kind starts that on
 {
     const outlet::step step{0, 0.01, 1};
     const auto made = [&](const word& text) {
-        return outletPressure(outlet::New(dictionary::fromString(text), ""));
+        return outletPressure(outlet::New(dictionary::fromString(text), "", dims::flowRate));
     };
     const word vessels = "outlet Windkessel; p 0; distal 1e8; compliance 1; initialPressure ";
     outletPressure resistance = made("outlet resistance; p 0; resistance 1e5;"),
@@ -150,6 +150,25 @@ TEST_CASE("a run that is continued with an outlet of another kind starts that on
     CHECK(Windkessel.begin(step, resistance.accept(step, 1e-6)) == relative(1000, 1e-6));
     CHECK(Windkessel.flow() == 1e-6);
     CHECK(later.begin(step, Windkessel.accept(step, 1e-6)) == relative(1000, 1e-6));
+}
+
+TEST_CASE(
+    "resistances and compliances in the units of the clinic; a unit of something else is refused")
+{
+    const auto made = [](const word& text, const dimensionSet& flow = dims::flowRate) {
+        return outlet::New(dictionary::fromString("outlet " + text), "", flow);
+    };
+    constexpr scalar mmHg = 133.322387415, ml = 1e-6;
+    const outlet::step step{0, 0.01, 1};
+    const word minutes = "resistance; p 0; resistance 2 [mmHg min/l];";
+    CHECK(made(minutes)->slope(step) == relative(2 * mmHg * 60 / 1e-3, 1e-9));
+    CHECK_ERROR(made(minutes, dims::kinematicViscosity), "resistance", 0);
+    const scalar p = made(
+                         "Windkessel; p 0; distal 1 [mmHg s/ml]; compliance 2 [ml/mmHg]; "
+                         "initialPressure 80 [mmHg];")
+                         ->pressure(step, 3 * ml);
+    // implicit Euler: C (p - p0)/dt = Q - p/R
+    CHECK(p == relative((2 * 80 / 0.01 + 3) / (2 / 0.01 + 1) * mmHg, 1e-9));
 }
 
 TEST_CASE("an end without reflection is a resistance rho c/A, of the whole face of all images")
