@@ -238,7 +238,8 @@ void restSearch::run()
         "No shape at rest is found for prestress: the last pass changes its strain by " +
             str(strain, 3) + ", and " + str(tolerance_, 3) + " is asked for (tolerance, maxIter " +
             std::to_string(maxIter_) +
-            "). Is the pressure more than the wall can carry? Try a smaller one",
+            "). Is the pressure more than the wall can carry? Then try a smaller one. Is a part of the "
+            "solid held nowhere? Then clamp some of it, or hold it by outside.stiffness",
         dict_.where());
 }
 
