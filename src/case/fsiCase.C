@@ -5,6 +5,7 @@
 #include "cloudIO.H"
 #include "patchDictionary.H"
 #include "solidState.H"
+#include "solidFriction.H"
 #include "sphc.H"
 #include "wallFriction.H"
 
@@ -245,6 +246,7 @@ void fsiCase::updateNeighbours(const stepTimes& times)
     list.build(cloud, *kernel, walls->visible(cloud));
     correction.build(cloud, list);
     makeShearExact(cloud, list);
+    stickToSolids(cloud, list);
     if (viscosity) viscosity->update(cloud, list, correction);
     countStrays();
 }

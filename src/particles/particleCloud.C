@@ -95,7 +95,7 @@ void particleCloud::clearGhosts()
 {
     x.resize(n_), Up.resize(n_), phase.resize(n_);
     owner_.clear(), rule_.clear(), offset_.clear(), depth_.clear();
-    wallScale_.clear(), ownImage_.clear();
+    wallScale_.clear(), ownImage_.clear(), solidView_.clear();
     volume_.clear(), stretched_ = false;
     rules_.clear(), surface.clear();
 }
