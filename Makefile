@@ -154,9 +154,17 @@ endef
 .PHONY: fuzzTargets
 $(foreach f,$(FUZZED),$(eval $(call FUZZER,$(f))))
 
-$(B)/%.o: %.C Makefile
+# Headers that no source of ours changes are compiled once.  PRECOMPILED= compiles without: a source must name what it needs
+PRECOMPILED ?= $(if $(filter Fuzz,$(OPT)),,$(B)/precompiled.H)
+$(B)/precompiled.H.gch: Makefile
+	@mkdir -p $(@D); echo "CXX  $(B)/precompiled.H"
+	@printf '#include <%s>\n' Eigen/Dense algorithm array cmath filesystem fstream functional iomanip iostream limits map memory \
+	    numeric optional set sstream stdexcept string vector > $(B)/precompiled.H
+	@$(CXX) $(CXXFLAGS) -x c++-header $(B)/precompiled.H -o $@
+
+$(B)/%.o: %.C Makefile $(addsuffix .gch,$(PRECOMPILED))
 	@mkdir -p $(@D); echo "CXX  $<"
-	@$(CXX) $(CXXFLAGS) $(INC) -MMD -MP -c $< -o $@
+	@$(CXX) $(CXXFLAGS) $(addprefix -include ,$(PRECOMPILED)) $(INC) -MMD -MP -c $< -o $@
 
 test: all testPrograms ## install what is missing, build and run every test (at most 20 minutes; OPT=Sanitize: hours)
 	@ISPF_BIN=$(B)/bin LIMIT=$(if $(filter Release,$(OPT)),1800,36000) bin/runTests $(B)/testPrograms
