@@ -108,8 +108,7 @@ vector fieldSampler::sampleVector(const particleField& f, size_t point) const
     for (const auto& c : weights_[point])
     {
         const source& s = sources_[c.index];
-        const vector v = f.vectorAt(s.particle);
-        sum += c.weight * (s.map ? vector(s.map->R * v) : v);
+        sum += c.weight * (s.map ? f.vectorAt(s.particle, s.map->R) : f.vectorAt(s.particle));
     }
     return sum;
 }

@@ -2,6 +2,11 @@
 #include "functionObject.H"
 
 #include "fileNames.H"
+#include "particleTable.H"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 
 namespace ispf
 {
@@ -58,6 +63,22 @@ List<word> functionObject::ofModelled(List<word> remarks, const word& values) co
         remarks.push_back("Symmetry planes: " + values + "of the modelled " + part +
                           ", not of the whole body");
     return remarks;
+}
+
+void functionObject::listTimes(const word& file) const
+{
+    List<seriesEntry> series;
+    for (const auto& item : std::filesystem::directory_iterator(folder("")))
+    {
+        const word time = item.path().filename().string();
+        char* end = nullptr;
+        const scalar t = std::strtod(time.c_str(), &end);
+        if (end != time.c_str() && !*end && std::filesystem::exists(item.path() / file))
+            series.push_back({t, time + "/" + file});
+    }
+    std::sort(series.begin(), series.end(),
+              [](const auto& a, const auto& b) { return a.time < b.time; });
+    writeSeries(folder(file + ".series"), series);
 }
 
 }  // namespace ispf

@@ -206,6 +206,7 @@ private:
         writeText(folder(time) + "/" + body + ".vtk",
                   vtkText(body + " at time " + time, surfaces, {tau, p, TAWSS, OSI, RRT, covered},
                           precision(6)));
+        listTimes(body + ".vtk");
     }
 
     scalar start_;

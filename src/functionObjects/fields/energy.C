@@ -29,12 +29,20 @@ namespace ispf
 namespace
 {
 
-// Power of the viscosity that the step solves, for the particles before open faces [W]
-scalar dissipationOf(const presentState& s, scalar mu)
+// Power of the viscosity of fluid and solid that the step solves, for the particles before open faces [W]
+scalar dissipationOf(const fsiCase& c, const presentState& s)
 {
     viscousPairs viscous;
     viscous.setup({s.cloud, s.list, s.B});
-    return -mu * s.cloud.volume() * viscous.powerOf(s.cloud.Up).dissipated;
+    const scalar ofFluid = -c.mu * s.cloud.volume() * viscous.powerOf(s.cloud.Up).dissipated;
+    if (!c.structure || !c.structure->damps()) return ofFluid;
+    blockMatrix3 D = c.structure->tangentPattern().withZeros();
+    c.structure->assembleDamping(c.cloud.x, D);
+    const List<vec4> u(c.cloud.Up.begin(), c.cloud.Up.begin() + c.cloud.nSolid());
+    List<vec4> Du;
+    D.apply(u, Du);
+    return ofFluid +
+           sumOf(0, c.cloud.nSolid(), [&](label i) { return u[i].xyz().dot(Du[i].xyz()); });
 }
 
 List<word> titles()
@@ -125,7 +133,7 @@ private:
     {
         const presentState s(case_);
         powers p;
-        p.dissipation = dissipationOf(s, case_.mu);
+        p.dissipation = dissipationOf(case_, s);
         if (!walls_.empty())
         {
             const pairFriction friction(case_, s);

@@ -21,7 +21,9 @@ class lineProfile : public functionObject
 {
 public:
     lineProfile(const word& name, const dictionary& dict, const fsiCase& c)
-        : functionObject(name, dict, c), fields_(fieldsOf(c.cloud, dict)), sampler_(dict, c)
+        : functionObject(name, dict, c),
+          fields_(fieldsOf(c.cloud, dict, {"U", "p"}, &c)),
+          sampler_(dict, c)
     {
         const vector a = dict.get<vector>("start", dims::length),
                      b = dict.get<vector>("end", dims::length);

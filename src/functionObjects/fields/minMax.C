@@ -19,7 +19,7 @@ class minMax : public functionObject
 public:
     minMax(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, dict, c),
-          fields_(fieldsOf(c.cloud, dict)),
+          fields_(fieldsOf(c.cloud, dict, {"U", "p"}, &c)),
           chosen_(c.cloud, dict, "all"),
           file_(table("minMax.dat",
                       {"Least and greatest value and their positions; magnitudes of vectors"},

@@ -37,7 +37,7 @@ public:
         : functionObject(name, dict, c),
           points_(dict.get<List<vector>>("probeLocations", dims::length)),
           sampler_(dict, c, frame),
-          fields_(fieldsOf(c.cloud, dict, defaults(frame))),
+          fields_(fieldsOf(c.cloud, dict, defaults(frame), &c)),
           files_(fields_.size())
     {
         if (points_.empty()) dict.fail("probeLocations", "At least one point (x y z) is wanted.");

@@ -7,7 +7,7 @@
 //     volIntegrate    sum of value times volume [m^3; m^2 in two dimensions]
 //     sum             sum over the particles
 //
-// All of the modelled part where symmetry planes cut the body.
+// Fluid beyond open faces does not count.  All of the modelled part where symmetry planes cut the body.
 #include "functionObject.H"
 
 #include "dataFile.H"
@@ -25,7 +25,7 @@ public:
     volFieldValue(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, dict, c),
           operation_(dict.choose("operation", {"volAverage", "volIntegrate", "sum"})),
-          fields_(fieldsOf(c.cloud, dict)),
+          fields_(fieldsOf(c.cloud, dict, {"U", "p"}, &c)),
           chosen_(c.cloud, dict, "all"),
           file_(table("volFieldValue.dat",
                       ofModelled({operation_ + " of the fields over the particles chosen"}),
@@ -42,7 +42,7 @@ public:
             vector sum = vector::Zero();
             label n = 0;
             for (label i = 0; i < cloud.n(); ++i)
-                if (chosen_(cloud, i))
+                if (chosen_(cloud, i) && !cloud.beyondOpen(i))
                     sum += f.isVector() ? f.vectorAt(i) : vector(f.at(i), 0, 0), ++n;
             const scalar factor = operation_ == "volAverage"     ? 1 / scalar(n)
                                   : operation_ == "volIntegrate" ? cloud.volume()

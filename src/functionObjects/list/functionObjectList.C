@@ -63,7 +63,9 @@ List<functionObjectList::item> functionObjectList::read(const dictionary& functi
         if (!enabled || same != items_.end()) dict.markAllRead();
         if (!enabled) continue;
         items.push_back(same != items_.end() ? *same : make(name, dict));
-        if (mayCarry()) items.back().object->advance(case_.cloud, 0);  // those named after it may ask for its fields
+        if (mayCarry())
+            items.back().object->advance(case_.cloud,
+                                         0);  // those named after it may ask for its fields
         items.back().text = functions.toString(name);
     }
     return items;
@@ -112,7 +114,14 @@ void functionObjectList::carryFields()
     particleCloud& cloud = case_.cloud;
     List<word> wanted;
     for (item& i : items_)
-        for (const word& field : i.object->carriedFields()) wanted.push_back(field);
+        for (const word& field : i.object->carriedFields())
+        {
+            if (std::find(wanted.begin(), wanted.end(), field) != wanted.end())
+                throw fatalError("Function object " + i.object->name() + " in " +
+                                 case_.time.systemFile("controlDict") + " carries the field " +
+                                 field + ", which another one carries already. Keep one of them");
+            wanted.push_back(field);
+        }
     const stepState state = cloud.state;
     for (const auto& [name, values] : state.values())
     {

@@ -20,6 +20,7 @@ made newPlaneMap(const word&, const dictionary&, const fsiCase&);
 made newProbes(const word&, const dictionary&, const fsiCase&);
 made newResidenceTime(const word&, const dictionary&, const fsiCase&);
 made newSolidStress(const word&, const dictionary&, const fsiCase&);
+made newSurfaceFieldValue(const word&, const dictionary&, const fsiCase&);
 made newSurfaceLeaks(const word&, const dictionary&, const fsiCase&);
 made newSurfaceSample(const word&, const dictionary&, const fsiCase&);
 made newVolFieldValue(const word&, const dictionary&, const fsiCase&);
@@ -43,6 +44,7 @@ std::unique_ptr<functionObject> functionObject::New(const word& name, const dict
                                                 {"probes", newProbes},
                                                 {"residenceTime", newResidenceTime},
                                                 {"solidStress", newSolidStress},
+                                                {"surfaceFieldValue", newSurfaceFieldValue},
                                                 {"surfaceLeaks", newSurfaceLeaks},
                                                 {"surfaceSample", newSurfaceSample},
                                                 {"volFieldValue", newVolFieldValue},

@@ -238,7 +238,8 @@ void restSearch::run()
         "No shape at rest is found for prestress: the last pass changes its strain by " +
             str(strain, 3) + ", and " + str(tolerance_, 3) + " is asked for (tolerance, maxIter " +
             std::to_string(maxIter_) +
-            "). Is the pressure more than the wall can carry? Then try a smaller one. Is a part of the "
+            "). Is the pressure more than the wall can carry? Then try a smaller one. Is a part of "
+            "the "
             "solid held nowhere? Then clamp some of it, or hold it by outside.stiffness",
         dict_.where());
 }
@@ -254,6 +255,14 @@ void findRest(fsiCase& c, const monolithicPreconditioner::entries& e, scalar the
         c.structureProperties.fail("prestress",
                                    "Springs have their rest lengths from the particles' places. "
                                    "Take structureModel totalLagrangian");
+    const auto rest = c.cloud.vectors.find("x0");
+    if (rest != c.cloud.vectors.end() && !c.cloud.vectors.count(restPlaces))
+        for (label i = 0; i < c.cloud.nSolid(); ++i)
+            if ((rest->second[i].xyz() - c.cloud.x[i].xyz()).norm() > 1e-6 * c.cloud.dx)
+                c.structureProperties.fail(
+                    "prestress",
+                    "It finds the places at rest, and 'rest' of system/particleDict "
+                    "gives them. Leave one of the two away");
     const scalar forgets = std::min(1 - theta, volumeFeedback);
     restSearch search(c, dict, e, forgets > 0 ? forgets / volumeFeedback : 0);
     if (!c.cloud.vectors.count(restPlaces)) search.run();

@@ -94,6 +94,8 @@ public:
     void assembleTangent(const List<vec4>& x, tangentKind kind, const List<scalar>& p,
                          blockMatrix3& K) const override;
     bool damps() const override { return materials_.damps(); }
+    void addViscousStress(const List<vec4>& x, const List<vec4>& u,
+                          List<tensor>& tau) const override;
     void assembleDamping(const List<vec4>& x, blockMatrix3& D) const override;
     List<label> linkCounts() const override;
     word description() const override;
@@ -295,6 +297,20 @@ void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, con
         },
         64);
     tangent_->assemble(C, star_, K);
+}
+
+// tau_v of (5.28)
+void totalLagrangian::addViscousStress(const List<vec4>& x, const List<vec4>& u,
+                                       List<tensor>& tau) const
+{
+    if (!damps()) return;
+    List<tensor> F, dF;
+    fit_.apply(x, F), fit_.applyLinear(u, dF);
+    forEach(0, n(), [&](label k) {
+        if (!active_[k]) return;
+        const tensor L = dF[k] * F[k].inverse();
+        tau[k] += materials_.viscosity(k) * (L + L.transpose());
+    });
 }
 
 // (5.29)

@@ -39,6 +39,7 @@ public:
                    const List<vector>& x0)
         : name_(name), c_(c), B_(B), fibres_(dict.subDict("fibres"), x0)
     {
+        checkFamilies(dict, label(x0.size()));
     }
 
     // Mean of the three moduli of shear between the axes
@@ -55,6 +56,39 @@ public:
     word description() const override { return name_; }
 
 private:
+    // True if the second axis has no effect: a turn by an angle about the first leaves the form as it is
+    bool isotropicAcross() const
+    {
+        const tensor R = Eigen::AngleAxisd(0.5, vector::UnitX()).toRotationMatrix();
+        modulusMatrix turn;
+        for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 3; ++c)
+                for (int m = 0; m < 3; ++m)
+                    for (int n = 0; n < 3; ++n) turn(r + 3 * c, m + 3 * n) = R(r, m) * R(c, n);
+        return (turn * B_ * turn.transpose() - B_).norm() < 1e-9 * B_.norm();
+    }
+
+    void checkFamilies(const dictionary& dict, label n) const
+    {
+        const dictionary fibres = dict.subDict("fibres");
+        const label wanted = isotropicAcross() ? 1 : 2, given = fibres_.nFamilies();
+        if (given != wanted)
+            fibres.fail("type",
+                        name_ + " with these numbers " +
+                            (wanted == 1 ? "is alike in all directions across the fibres, "
+                                           "and wants one family"
+                                         : "is not alike in all directions across the "
+                                           "fibres, and wants two families: the second gives the "
+                                           "direction of the second axis") +
+                            ". There are " + std::to_string(given));
+        for (label k = 0; wanted == 2 && k < n; ++k)
+            if (!(fibres_.of(0, k).cross(fibres_.of(1, k)).norm() > 1e-3))
+                fibres.fail("type",
+                            "Both families have the same direction at the solid's particle " +
+                                std::to_string(k) +
+                                ": the direction of the second axis is not known");
+    }
+
     // E in the axes of the fibres, dQ/dE and exp Q
     struct strained
     {

@@ -79,7 +79,8 @@ referenceGradient::referenceGradient(const structureReference& ref)
                         str(ref.x0[i][1]) + " " + str(ref.x0[i][2]) + ") has " +
                         std::to_string(pairs_.count(i)) + " solid neighbours, all in one " +
                         (ref.nDims == 3 ? "plane" : "line") +
-                        ": the wall is less than two layers thick there. Use a smaller dx");
+                        ": the wall is less than two layers thick there. Use a smaller dx; cut "
+                        "off a sharp tip, which ends in such a particle at any dx");
                 B_[i] = moment.inverse();
             }
         },

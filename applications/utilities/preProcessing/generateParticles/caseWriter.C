@@ -5,7 +5,9 @@
 #include "particleTable.H"
 #include "restState.H"
 #include "stlWriter.H"
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <numeric>
 
 namespace ispf
@@ -75,6 +77,33 @@ List<namedText> surfaceTexts(const word& caseFolder, const zoneGeometry& geometr
     return files;
 }
 
+// Names of the surfaces that generateParticles has made, one a line
+word listOf(const word& caseFolder)
+{
+    return caseFolder + "/constant/triSurface/generated";
+}
+
+// A pattern of constant/boundary would match surfaces that an earlier run has made, and this one has not
+void removeOldSurfaces(const word& caseFolder, const List<namedText>& present)
+{
+    std::ifstream list(listOf(caseFolder));
+    for (word name; std::getline(list, name);)
+    {
+        const word path = caseFolder + "/constant/triSurface/" + name + ".stl";
+        const bool remains = std::any_of(present.begin(), present.end(),
+                                         [&](const namedText& f) { return f.path == path; });
+        if (!remains && name.find('/') == word::npos) std::filesystem::remove(path);
+    }
+}
+
+namedText listOfSurfaces(const word& caseFolder, const List<namedText>& surfaces)
+{
+    word names;
+    for (const namedText& f : surfaces)
+        names += std::filesystem::path(f.path).stem().string() + "\n";
+    return {listOf(caseFolder), names};
+}
+
 }  // namespace
 
 void writeCase(const word& caseFolder, const zoneGeometry& geometry, const placedParticles& placed,
@@ -115,6 +144,8 @@ void writeCase(const word& caseFolder, const zoneGeometry& geometry, const place
 
     const heldSignals untilDone;
     List<namedText> files = surfaceTexts(caseFolder, geometry, initial);
+    removeOldSurfaces(caseFolder, files);
+    files.push_back(listOfSurfaces(caseFolder, files));
     for (const auto& [table, file] :
          {std::pair(&walls, "/constant/wallParticles.hdf"),
           std::pair(&sites, "/constant/openSites.hdf"), std::pair(&particles, "/0/particles.hdf")})

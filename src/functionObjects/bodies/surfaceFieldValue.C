@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One number for a field of the fluid on a patch, a solid or a surface, as OpenFOAM's function object of this name:
+//
+//     inletPressure { type surfaceFieldValue; operation areaAverage; patches (inlet); fields (p); }
+//
+//     areaAverage      mean over the area with particles before it
+//     areaIntegrate    integral over that area; [.. m] in two dimensions
+//     min, max         of the triangles; magnitudes of vectors
+//
+// patches: walls and open faces of constant/boundary; zones: surfaces of solids; surfaces: constant/triSurface/<name>.stl.  All
+// given together are one area.  fields: p, U, wallShearStress (p).  `covered` is the share of the area with particles near
+// enough.  Of the modelled part where symmetry planes cut the body.
+#include "functionObject.H"
+
+#include "dataFile.H"
+#include "loadedBody.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ispf
+{
+
+namespace
+{
+
+class surfaceFieldValue : public functionObject
+{
+public:
+    surfaceFieldValue(const word& name, const dictionary& dict, const fsiCase& c)
+        : functionObject(name, dict, c),
+          operation_(dict.choose("operation", {"areaAverage", "areaIntegrate", "min", "max"})),
+          fields_(dict.getOrDefault<List<word>>("fields", {"p"})),
+          bodies_(bodiesOf(dict, c)),
+          file_(table("surfaceFieldValue.dat",
+                      ofModelled({operation_ + " over the surface; covered: share of its area"}),
+                      titles(dict)))
+    {
+    }
+
+    void write() override
+    {
+        List<vector> result(fields_.size(), vector::Constant(start()));
+        scalar covered = 0, whole = 0;
+        for (const loadedBody& b : bodies_)
+            for (const loadedBody::side& s : b.sides())
+                for (size_t k = 0; k < s.facets.size(); ++k)
+                {
+                    const scalar area = s.facets[k].area.norm();
+                    whole += area;
+                    if (!s.fluid[k].covered) continue;
+                    covered += area;
+                    for (size_t f = 0; f < fields_.size(); ++f)
+                    {
+                        const vector v = valueOf(fields_[f], s.facets[k], s.fluid[k]);
+                        const scalar size = fields_[f] == "p" ? v[0] : v.norm();
+                        if (sums()) result[f] += area * v;
+                        else if (operation_ == "min") result[f][0] = std::min(result[f][0], size);
+                        else result[f][0] = std::max(result[f][0], size);
+                    }
+                }
+        file_.begin(case_.time.value());
+        for (size_t f = 0; f < fields_.size(); ++f)
+        {
+            if (operation_ == "areaAverage") result[f] /= covered;
+            if (covered == 0) result[f].setConstant(std::nan(""));
+            if (sums() && fields_[f] != "p") file_ << result[f];
+            else file_ << result[f][0];
+        }
+        file_ << (whole > 0 ? covered / whole : 0);
+        file_.endRow();
+    }
+
+private:
+    static List<loadedBody> bodiesOf(const dictionary& dict, const fsiCase& c)
+    {
+        List<loadedBody> all;
+        const List<word> open = c.walls->openFaces();
+        for (const word& b : dict.getOrDefault<List<word>>("patches", {}))
+            if (std::find(open.begin(), open.end(), b) != open.end())
+                all.push_back(loadedBody::openFace(b, c));
+            else all.push_back(loadedBody::wall(b, c, dict.where("patches")));
+        for (const word& b : dict.getOrDefault<List<word>>("zones", {}))
+            all.push_back(loadedBody::solid(b, c, dict.where("zones")));
+        for (const word& b : dict.getOrDefault<List<word>>("surfaces", {}))
+            all.push_back(loadedBody::surface(b, c, dict.where("surfaces")));
+        if (all.empty())
+            throw fatalError(
+                "surfaceFieldValue wants patches, zones of solids, or surfaces of "
+                "constant/triSurface.",
+                dict.where());
+        return all;
+    }
+
+    bool sums() const { return operation_ != "min" && operation_ != "max"; }
+    scalar start() const { return operation_ == "min" ? 1e300 : operation_ == "max" ? -1e300 : 0; }
+
+    vector valueOf(const word& field, const facet& f, const fluidAt& fluid) const
+    {
+        if (field == "p") return {fluid.p, 0, 0};
+        return field == "U" ? fluid.U : shearOn(f.area.normalized(), fluid, case_);
+    }
+
+    List<word> titles(const dictionary& dict) const
+    {
+        List<word> all;
+        const List<word> known = {"p", "U", "wallShearStress"};
+        for (const word& f : fields_)
+        {
+            if (std::find(known.begin(), known.end(), f) == known.end())
+                dict.fail("fields",
+                          "There is no field '" + f + "' here. " + validWords("field", known));
+            all.push_back(operation_ + "(" + f + ")");
+        }
+        all.push_back("covered");
+        return all;
+    }
+
+    word operation_;
+    List<word> fields_;
+    List<loadedBody> bodies_;
+    dataFile file_;
+};
+
+}  // namespace
+
+std::unique_ptr<functionObject> newSurfaceFieldValue(const word& name, const dictionary& dict,
+                                                     const fsiCase& c)
+{
+    return std::make_unique<surfaceFieldValue>(name, dict, c);
+}
+
+}  // namespace ispf
