@@ -168,8 +168,8 @@ triSurface loadedBody::carried(size_t side, const triSurface& now) const
     return s;
 }
 
-// Per triangle of a wall that the fluid sticks to; else empty.  Beside a solid the fluid comes to rest half a dx within it, so
-// that its velocity at the surface is not that of the solid
+// Per triangle of a wall that the fluid sticks to; else empty.  The velocity of a solid's surface is known no better than that of
+// the fluid there
 List<vector> loadedBody::stickingTo(const triSurface& s) const
 {
     List<vector> U;

@@ -39,7 +39,7 @@ scalar dissipationOf(const fsiCase& c, const presentState& s)
     blockMatrix3 D = c.structure->tangentPattern().withZeros();
     c.structure->assembleDamping(c.cloud.x, D);
     const List<vec4> u(c.cloud.Up.begin(), c.cloud.Up.begin() + c.cloud.nSolid());
-    List<vec4> Du;
+    List<vec4> Du(u.size());
     D.apply(u, Du);
     return ofFluid +
            sumOf(0, c.cloud.nSolid(), [&](label i) { return u[i].xyz().dot(Du[i].xyz()); });
