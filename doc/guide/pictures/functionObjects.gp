@@ -21,6 +21,8 @@ set output "minMax.png"; set ylabel "max |U| [m/s]"
 plot flap("extremes/0/minMax.dat") using 1:6 with lines linestyle 1 notitle
 set output "volFieldValue.png"; set ylabel "mean U of the flap [m/s]"
 plot flap("flapMean/0/volFieldValue.dat") using 1:2 with lines linestyle 1 title "x", "" using 1:3 with lines linestyle 2 title "y"
+set output "surfaceFieldValue.png"; set ylabel "mean p of the inlet [Pa]"
+plot flap("entry/0/surfaceFieldValue.dat") using 1:2 with lines linestyle 1 notitle
 set output "patchFlux.png"; set ylabel "flux [m2/s]"; set key bottom right
 plot flap("outflow/0/patchFlux.dat") using 1:2 with lines linestyle 1 title "patch outlet", \
      flap("section/0/patchFlux.dat") using 1:2 every 10 with points pointtype 6 linecolor rgb "#c0392b" title "surface outlet"
