@@ -52,7 +52,7 @@ scalar largest(const fsiCase& c)
     return most;
 }
 
-// A block of springs in fluid, stretched by one per cent; a quarter of both between symmetry planes
+// A slab of springs on fluid, stretched by one per cent; half of both, between symmetry planes
 struct stretchedBlock
 {
     caseOnDisk files{"energyLedgerSolid"};
@@ -67,6 +67,7 @@ struct stretchedBlock
         for (size_t i = 0; i < 60; ++i) t.x[i][0] *= 1.01, t.x[i][1] *= 0.99;
         files.boundary =
             "left { type symmetryPlane; point (0 0 0); normal (-1 0 0); }"
+            "right { type symmetryPlane; point (0.102 0 0); normal (1 0 0); }"
             "low { type symmetryPlane; point (0 0 0); normal (0 -1 0); }";
         files.schemes += "ddtScheme " + ddt + ";";
         files.solution = "coupling " + coupling + ";";
