@@ -37,6 +37,11 @@ echo 'dx 1e-3; nDims 2; zones { water { phase fluid; shape box; min (0 0 0); max
     patches { capIn { box ((-1e-4 -1 -1) (1e-4 1 1)); } capOut { box ((11.9e-3 -1 -1) (12.1e-3 1 1)); } }' > system/particleDict
 run box '"cap.*" { type open; p 2; } "w.*" { type wall; }'
 [ "$(ls constant/triSurface | paste -sd ' ')" = "capIn.stl capOut.stl walls.stl" ] || fail "patches: $(ls constant/triSurface)"
+# surfaces of an earlier run that this one does not make are removed; those of the user stay
+cp constant/triSurface/capOut.stl constant/triSurface/own.stl
+sed -i 's/capOut/capEnd/' system/particleDict; rm -rf 0 0.*; place; solved
+[ "$(ls constant/triSurface | paste -sd ' ')" = "capEnd.stl capIn.stl own.stl walls.stl" ] || fail "old surfaces: $(ls constant/triSurface)"
+sed -i 's/capEnd/capOut/' system/particleDict; run box '"cap.*" { type open; p 2; } "w.*" { type wall; }'
 grep -q "capIn" log && grep -q "capOut" log || fail "the log has no flux through the caps"
 echo '"cap.*" { type open; p 2; } "w.*" { type wall; } "lid.*" { type wall; }' > constant/boundary
 solve && fail "a pattern without a patch is accepted"

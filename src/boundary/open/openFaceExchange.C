@@ -62,8 +62,11 @@ label openFace::removeBeyond(particleCloud& cloud) const
     const auto left = [&](label i) {
         return known_[i].foot.found && known_[i].foot.depth > depth_;
     };
+    // a wall may cross the face: what has left was before it at rest
+    const auto rest = cloud.vectors.find("x0");
     for (label i = 0; i < cloud.nSolid(); ++i)
-        if (!cloud.uFixed[i] && left(i))
+        if (!cloud.uFixed[i] && left(i) && rest != cloud.vectors.end() &&
+            !(surface_->find(rest->second[i].xyz()).depth > 0))
             throw fatalError("The solid leaves through the open face " + name_ + " with " +
                              cloud.describe(i) +
                              ". Only fluid can. End the run before, or move the face away");

@@ -80,7 +80,7 @@ List<namedText> surfaceTexts(const word& caseFolder, const zoneGeometry& geometr
 // Names of the surfaces that generateParticles has made, one a line
 word listOf(const word& caseFolder)
 {
-    return caseFolder + "/constant/triSurface/generated";
+    return caseFolder + "/constant/triSurface/.generated";
 }
 
 // A pattern of constant/boundary would match surfaces that an earlier run has made, and this one has not
