@@ -133,6 +133,15 @@ $(B)/testPrograms/$(1): $$(OBJ_test_$(1)) $$(filter-out %/$(1).o,$$(OBJ_app_$(1)
 OBJECTS += $$(OBJ_test_$(1))
 testPrograms: $(B)/testPrograms/$(1)
 endef
+# Headers that no source of ours changes are compiled once.  PRECOMPILED= compiles without: a source must name what it needs
+PRECOMPILED ?= $(if $(filter Fuzz,$(OPT)),,$(B)/precompiled.H)
+$(B)/precompiled.H.gch: Makefile
+	@mkdir -p $(@D); echo "CXX  $(B)/precompiled.H"
+	@printf '#include <%s>\n' Eigen/Dense algorithm array cmath filesystem fstream functional iomanip iostream limits map memory \
+	    numeric optional set sstream stdexcept string vector > $(B)/precompiled.H
+	@$(CXX) $(CXXFLAGS) -x c++-header $(B)/precompiled.H -o $@
+OBJECTS += $(addsuffix .gch,$(PRECOMPILED))
+
 .PHONY: testPrograms testPackages
 testPrograms:
 testPackages: # lists what is missing and installs it, as the demo does
@@ -153,14 +162,6 @@ fuzzTargets: $(B)/fuzz/$(1)
 endef
 .PHONY: fuzzTargets
 $(foreach f,$(FUZZED),$(eval $(call FUZZER,$(f))))
-
-# Headers that no source of ours changes are compiled once.  PRECOMPILED= compiles without: a source must name what it needs
-PRECOMPILED ?= $(if $(filter Fuzz,$(OPT)),,$(B)/precompiled.H)
-$(B)/precompiled.H.gch: Makefile
-	@mkdir -p $(@D); echo "CXX  $(B)/precompiled.H"
-	@printf '#include <%s>\n' Eigen/Dense algorithm array cmath filesystem fstream functional iomanip iostream limits map memory \
-	    numeric optional set sstream stdexcept string vector > $(B)/precompiled.H
-	@$(CXX) $(CXXFLAGS) -x c++-header $(B)/precompiled.H -o $@
 
 $(B)/%.o: %.C Makefile $(addsuffix .gch,$(PRECOMPILED))
 	@mkdir -p $(@D); echo "CXX  $<"
@@ -204,4 +205,4 @@ format: ## clang-format all sources in place
 clean: ## remove build/
 	@rm -rf build
 
--include $(OBJECTS:.o=.d)
+-include $(patsubst %.o,%.d,$(filter %.o,$(OBJECTS)))
