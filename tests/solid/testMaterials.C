@@ -154,6 +154,17 @@ TEST_CASE("a wrong material: the message lists the valid types and ranges")
     CHECK(error("type Fung; c 1; normal (1 1 1 -3 0 0); shear (1 1 1); " + along1)
               .find("negative for some strain") != word::npos);
     CHECK(error("type Guccione; C 1; bf 1; bt 1; bfs 1;").find("fibres") != word::npos);
+    // the second axis has a direction where it matters, and none where it does not
+    const word orthotropic = "type Fung; c 1; normal (1 2 1 0 0 0); shear (0.5 0.5 0.5); ",
+               alike = "type Fung; c 1; normal (2 1 1 0 0.5 0); shear (0.5 0.25 0.5); ",
+               twice = "fibres { type uniform; directions ((1 0 0) (2 0 0)); }";
+    CHECK(error(orthotropic + along1).find("wants two families") != word::npos);
+    CHECK(error(orthotropic + twice).find("the same direction") != word::npos);
+    CHECK(error(orthotropic + crossed).empty());
+    CHECK(error(alike + along1).empty());
+    CHECK(error(alike + crossed).find("wants one family") != word::npos);
+    CHECK(error("type Guccione; C 1; bf 1; bt 2; bfs 1; " + crossed).find("wants one family") !=
+          word::npos);
     const word HGO = "type HolzapfelGasserOgden; G 1; k1 1; k2 1; ";
     CHECK(error(HGO + "kappa 0.4; " + along1).find("kappa") != word::npos);
     CHECK(error(HGO + "fibres { type woven; }").find("uniform") != word::npos);

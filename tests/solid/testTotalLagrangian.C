@@ -60,6 +60,24 @@ TEST_CASE("homogeneous motions without change of volume have the exact stress of
             }
 }
 
+TEST_CASE("the viscous stress of a uniform rate of strain is 2 eta d, none of it of a turn")
+{
+    const scalar eta = 3;
+    tensor F = tensor::Identity(), L = tensor::Zero();
+    F(0, 1) = 0.4, L(0, 1) = 5, L(1, 0) = -2;
+    for (const structureReference& ref : {disorderedBlock(5, 5, 5), latticeBlock(6, 6, 0)})
+    {
+        const auto model =
+            lagrangian(ref, "material { type neoHookean; G 1e6; viscosity " + str(eta) + "; }");
+        const List<vec4> x = affine(ref, F);
+        List<vec4> u(x.size());
+        for (size_t i = 0; i < x.size(); ++i) u[i] = vec4::from(L * x[i].xyz());
+        List<tensor> tau(x.size(), tensor::Zero());
+        model->addViscousStress(x, u, tau);
+        for (const tensor& t : tau) CHECK((t - eta * (L + L.transpose())).norm() < 1e-9 * eta);
+    }
+}
+
 TEST_CASE("nothing acts at rest and after a rigid motion")
 {
     for (const structureReference& ref : bodies())
