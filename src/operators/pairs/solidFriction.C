@@ -26,7 +26,7 @@ vec4 viewOf(const particleCloud& cloud, const neighbourList& list, label i)
     vector out = vector::Zero(), next = vector::Zero();
     scalar size = 0, least = std::numeric_limits<scalar>::max();
     bool wall = false;
-    forNeighbours<among::all>(list, i, [&](pairIndex k, label j) {
+    forNeighbours<among::others>(list, i, [&](pairIndex k, label j) {
         if (!cloud.isMedium(j)) wall = true;
         if (!isSolid(cloud, j)) return;
         const vector way = cloud.x[i].xyz() - cloud.x[j].xyz();
