@@ -67,7 +67,7 @@ struct stretchedBlock
         for (size_t i = 0; i < 60; ++i) t.x[i][0] *= 1.01, t.x[i][1] *= 0.99;
         files.boundary =
             "left { type symmetryPlane; point (0 0 0); normal (-1 0 0); }"
-            "right { type symmetryPlane; point (0.102 0 0); normal (1 0 0); }"
+            "right { type symmetryPlane; point (0.101 0 0); normal (1 0 0); }"
             "low { type symmetryPlane; point (0 0 0); normal (0 -1 0); }";
         files.schemes += "ddtScheme " + ddt + ";";
         files.solution = "coupling " + coupling + ";";
