@@ -40,7 +40,7 @@ refused "pressures { wall 1; }" "Zone wall is solid"
 refused "pressures { blood 1; }" "lumen"
 refused "pressure 1;" "Valid are: pressures tolerance maxIter"
 refused "pressures { lumen 3e5; } maxIter 20;" "No shape at rest is found"
-setEntry system/particleDict zones.wall.rest '("x/1.02" "y*1.02" "z")'; place
+ispfDictionary system/particleDict -entry zones.wall.rest -set '("x/1.02" "y*1.02" "z")' > /dev/null; place
 refused "pressures { lumen 1; }" "Leave one of the two away"
 sed -i 's/totalLagrangian/springNetwork/; s/^material.*/G 5e4; links radius; radius 2.1;/' constant/structureProperties
 refused "pressures { lumen 1; }" "Take structureModel totalLagrangian"
