@@ -4,8 +4,8 @@
 
 #include "cloudIO.H"
 #include "patchDictionary.H"
-#include "solidState.H"
 #include "solidFriction.H"
+#include "solidState.H"
 #include "sphc.H"
 #include "wallFriction.H"
 

@@ -71,7 +71,7 @@ refusedFunction() { # functions, words
     grep -q "$2" log.refused || fail "$1: $(tail -n 6 log.refused)"
 }
 refusedFunction "a { type residenceTime; } b { type residenceTime; }" "carries the field residenceTime"
-refusedFunction "a { type surfaceSample; patches (in); fields (vonMises); }" "There is no wall 'in'"
+refusedFunction "a { type surfaceSample; patches (in); fields (vonMises); }" "Field vonMises is one of a solid"
 refusedFunction "a { type surfaceFieldValue; operation areaAverage; patches (in); fields (q); }" "Valid fields are: U p wallShearStress"
 refusedFunction "a { type probes; probeLocations ((0 0 0)); fields (misses); }" "vonMises"
 [ $failures = 0 ]

@@ -64,6 +64,25 @@ loadedBody loadedBody::openFace(const word& face, const fsiCase& c)
     return b;
 }
 
+List<loadedBody> loadedBody::chosen(const dictionary& dict, const fsiCase& c)
+{
+    List<loadedBody> all;
+    const List<word> open = c.walls->openFaces();
+    for (const word& b : dict.getOrDefault<List<word>>("patches", {}))
+        if (std::find(open.begin(), open.end(), b) != open.end()) all.push_back(openFace(b, c));
+        else all.push_back(wall(b, c, dict.where("patches")));
+    for (const word& b : dict.getOrDefault<List<word>>("zones", {}))
+        all.push_back(solid(b, c, dict.where("zones")));
+    for (const word& b : dict.getOrDefault<List<word>>("surfaces", {}))
+        all.push_back(surface(b, c, dict.where("surfaces")));
+    if (all.empty())
+        throw fatalError(
+            "This wants patches, walls or open faces, zones, of solids, or surfaces, of "
+            "constant/triSurface.",
+            dict.where());
+    return all;
+}
+
 loadedBody loadedBody::solid(const word& zone, const fsiCase& c, const fileLocation& where)
 {
     loadedBody b(zone, c);

@@ -31,7 +31,7 @@ public:
         : functionObject(name, dict, c),
           operation_(dict.choose("operation", {"areaAverage", "areaIntegrate", "min", "max"})),
           fields_(dict.getOrDefault<List<word>>("fields", {"p"})),
-          bodies_(bodiesOf(dict, c)),
+          bodies_(loadedBody::chosen(dict, c)),
           file_(table("surfaceFieldValue.dat",
                       ofModelled({operation_ + " over the surface; covered: share of its area"}),
                       titles(dict)))
@@ -72,26 +72,6 @@ public:
     }
 
 private:
-    static List<loadedBody> bodiesOf(const dictionary& dict, const fsiCase& c)
-    {
-        List<loadedBody> all;
-        const List<word> open = c.walls->openFaces();
-        for (const word& b : dict.getOrDefault<List<word>>("patches", {}))
-            if (std::find(open.begin(), open.end(), b) != open.end())
-                all.push_back(loadedBody::openFace(b, c));
-            else all.push_back(loadedBody::wall(b, c, dict.where("patches")));
-        for (const word& b : dict.getOrDefault<List<word>>("zones", {}))
-            all.push_back(loadedBody::solid(b, c, dict.where("zones")));
-        for (const word& b : dict.getOrDefault<List<word>>("surfaces", {}))
-            all.push_back(loadedBody::surface(b, c, dict.where("surfaces")));
-        if (all.empty())
-            throw fatalError(
-                "surfaceFieldValue wants patches, zones of solids, or surfaces of "
-                "constant/triSurface.",
-                dict.where());
-        return all;
-    }
-
     bool sums() const { return operation_ != "min" && operation_ != "max"; }
     scalar start() const { return operation_ == "min" ? 1e300 : operation_ == "max" ? -1e300 : 0; }
 

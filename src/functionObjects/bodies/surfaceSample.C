@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fluid pressure, velocity and wall shear stress on walls, on surfaces of solid zones or on any surface at rest,
+// Fluid pressure, velocity and wall shear stress on walls and open faces, on surfaces of solid zones or on any surface at rest,
 // triangle by triangle.  One file per body and time: postProcessing/<name>/<time>/<body>.<ending>
 //
 //     wallLoad { type surfaceSample; patches (walls); zones (wall); surfaces (section); surfaceFormat vtk; }
@@ -33,20 +33,9 @@ public:
     surfaceSample(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, dict, c),
           vtk_(dict.chooseOrDefault("surfaceFormat", {"vtk", "raw"}, "vtk") == "vtk"),
-          fields_(fieldsOf(c.cloud, dict, {}, &c))
+          fields_(fieldsOf(c.cloud, dict, {}, &c)),
+          bodies_(loadedBody::chosen(dict, c))
     {
-        for (const word& b : dict.getOrDefault<List<word>>("patches", {}))
-            bodies_.push_back(loadedBody::wall(b, c, dict.where("patches")));
-        for (const word& b : dict.getOrDefault<List<word>>("zones", {}))
-            bodies_.push_back(loadedBody::solid(b, c, dict.where("zones")));
-        for (const word& b : dict.getOrDefault<List<word>>("surfaces", {}))
-            bodies_.push_back(loadedBody::surface(b, c, dict.where("surfaces")));
-        if (bodies_.empty())
-            throw fatalError(
-                "surfaceSample wants patches, the names of walls, zones, of solids, or surfaces, "
-                "of "
-                "constant/triSurface.",
-                dict.where());
         for (const particleField& f : fields_)
             if (f.ofSolid() && dict.getOrDefault<List<word>>("zones", {}).size() != bodies_.size())
                 dict.fail("fields",

@@ -63,9 +63,8 @@ List<functionObjectList::item> functionObjectList::read(const dictionary& functi
         if (!enabled || same != items_.end()) dict.markAllRead();
         if (!enabled) continue;
         items.push_back(same != items_.end() ? *same : make(name, dict));
-        if (mayCarry())
-            items.back().object->advance(case_.cloud,
-                                         0);  // those named after it may ask for its fields
+        // those named after it may ask for its fields
+        if (mayCarry()) items.back().object->advance(case_.cloud, 0);
         items.back().text = functions.toString(name);
     }
     return items;

@@ -83,17 +83,19 @@ word listOf(const word& caseFolder)
     return caseFolder + "/constant/triSurface/.generated";
 }
 
-// A pattern of constant/boundary would match surfaces that an earlier run has made, and this one has not
-void removeOldSurfaces(const word& caseFolder, const List<namedText>& present)
+// Surfaces of an earlier run that are not among the present ones.  A pattern of constant/boundary would match them
+List<word> oldSurfaces(const word& caseFolder, const List<namedText>& present)
 {
+    List<word> old;
     std::ifstream list(listOf(caseFolder));
     for (word name; std::getline(list, name);)
     {
         const word path = caseFolder + "/constant/triSurface/" + name + ".stl";
         const bool remains = std::any_of(present.begin(), present.end(),
                                          [&](const namedText& f) { return f.path == path; });
-        if (!remains && name.find('/') == word::npos) std::filesystem::remove(path);
+        if (!remains && name.find('/') == word::npos) old.push_back(path);
     }
+    return old;
 }
 
 namedText listOfSurfaces(const word& caseFolder, const List<namedText>& surfaces)
@@ -144,7 +146,7 @@ void writeCase(const word& caseFolder, const zoneGeometry& geometry, const place
 
     const heldSignals untilDone;
     List<namedText> files = surfaceTexts(caseFolder, geometry, initial);
-    removeOldSurfaces(caseFolder, files);
+    const List<word> old = oldSurfaces(caseFolder, files);
     files.push_back(listOfSurfaces(caseFolder, files));
     for (const auto& [table, file] :
          {std::pair(&walls, "/constant/wallParticles.hdf"),
@@ -152,6 +154,7 @@ void writeCase(const word& caseFolder, const zoneGeometry& geometry, const place
         if (table->size() > 0) files.push_back(particleText(*table, caseFolder + file));
     writeTexts(files);
     // an earlier run's files would be taken for valid
+    for (const word& path : old) std::filesystem::remove(path);
     if (walls.size() == 0) std::filesystem::remove(caseFolder + "/constant/wallParticles.hdf");
     if (sites.size() == 0) std::filesystem::remove(caseFolder + "/constant/openSites.hdf");
 }
