@@ -47,13 +47,13 @@ void elasticStep::begin(List<vec4> x0, scalar tau, const List<scalar>& p)
         stiffness_[i] = K_.diagonal[i].trace() / structure_->reference().nDims;
     });
     if (structure_->damps()) structure_->assembleDamping(x0_, D_);
-    if (newton()) keepResistance(p);
+    if (newton()) keepResistance();
     if (structure_->damps()) K_.addScaled(1 / tau_, D_);
     start_ = force_;
 }
 
 // R of (7.17), which is that of x_0 in all passes
-void elasticStep::keepResistance(const List<scalar>& p)
+void elasticStep::keepResistance()
 {
     blockMatrix3 elastic = structure_->tangentPattern();
     structure_->assembleTangent(x0_, tangentKind::positive, elastic);

@@ -107,7 +107,6 @@ private:
     void begin(scalar t, scalar dt);
     void structureState();
     void elasticState();
-    bool mostlyWet() const;
     bool outsideActs() { return outside_ && outside_->acts(system_.hydrostatic()); }
     void assemble();
     List<scalar> guess() const;
@@ -185,14 +184,6 @@ void monolithic::structureState()
     surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
     outside_->find(surface_);
     if (gaps_) gaps_->close(c_, surface_);
-}
-
-// True if more of the solid's surface is before fluid than is open.  The level of p then acts on the smaller part
-bool monolithic::mostlyWet() const
-{
-    if (!c_.structure) return false;
-    const auto [wet, open] = surface_.wetAndOpen();
-    return wet > open;
 }
 
 // Call once the hydrostatic part of p is known
@@ -331,7 +322,7 @@ void monolithic::begin(scalar t, scalar dt)
     if (contact_) contact_->find();
     energy_.begin(time_.startPlaces(cloud));
     structureState();
-    system_.hydrostatic().take(cloud, mostlyWet());
+    system_.hydrostatic().take(cloud, outside_ && outside_->mostlyWet());
     elasticState();
     setResistance();  // (1.10)
     time_.begin(cloud);

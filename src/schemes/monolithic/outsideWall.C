@@ -24,8 +24,9 @@ outsideWall::outsideWall(const dictionary& structureProperties, const word& case
 
 void outsideWall::find(const solidSurface& surface)
 {
-    open_ = surface.wetAndOpen()[1] > 0;
-    if (given_ && !open_)
+    const std::array<scalar, 2> areas = surface.wetAndOpen();
+    wet_ = areas[0], open_ = areas[1];
+    if (given_ && !(open_ > 0))
         dict_.fail(dict_.keys().front(),
                    "It acts where neither fluid nor wall is before the solid, and there is no such "
                    "place here. Leave it away");

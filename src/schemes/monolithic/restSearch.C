@@ -239,8 +239,7 @@ void restSearch::run()
             str(strain, 3) + ", and " + str(tolerance_, 3) + " is asked for (tolerance, maxIter " +
             std::to_string(maxIter_) +
             "). Is the pressure more than the wall can carry? Then try a smaller one. Is a part of "
-            "the "
-            "solid held nowhere? Then clamp some of it, or hold it by outside.stiffness",
+            "the solid held nowhere? Then clamp some of it, or hold it by outside.stiffness",
         dict_.where());
 }
 

@@ -253,8 +253,8 @@ void projection::refuseBareWalls()
         "structureModel",
         "Neither fluid nor wall is before the solid at " + cloud.describe(first) +
             ", and other parts of it have fluid. Coupling projection has no pressure there, and "
-            "the "
-            "fluid would not load the solid. Take coupling monolithic, or put fluid on both sides");
+            "the fluid would not load the solid. Take coupling monolithic, or put fluid on both "
+            "sides");
 }
 
 // Places of the forces, u_0 and the neighbours there

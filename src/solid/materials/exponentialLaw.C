@@ -32,6 +32,17 @@ void add(form& B, scalar b, int i, int j, int k, int l)
         for (const int q : {k + 3 * l, l + 3 * k}) B(p, q) += b / 8, B(q, p) += b / 8;
 }
 
+// E becomes A E A^T
+modulusMatrix turnOf(const tensor& A)
+{
+    modulusMatrix turn;
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+            for (int m = 0; m < 3; ++m)
+                for (int n = 0; n < 3; ++n) turn(r + 3 * c, m + 3 * n) = A(r, m) * A(c, n);
+    return turn;
+}
+
 class exponentialLaw : public isochoricLaw
 {
 public:
@@ -59,12 +70,8 @@ private:
     // True if the second axis has no effect: a turn by an angle about the first leaves the form as it is
     bool isotropicAcross() const
     {
-        const tensor R = Eigen::AngleAxisd(0.5, vector::UnitX()).toRotationMatrix();
-        modulusMatrix turn;
-        for (int r = 0; r < 3; ++r)
-            for (int c = 0; c < 3; ++c)
-                for (int m = 0; m < 3; ++m)
-                    for (int n = 0; n < 3; ++n) turn(r + 3 * c, m + 3 * n) = R(r, m) * R(c, n);
+        const modulusMatrix turn =
+            turnOf(Eigen::AngleAxisd(0.5, vector::UnitX()).toRotationMatrix());
         return (turn * B_ * turn.transpose() - B_).norm() < 1e-9 * B_.norm();
     }
 
@@ -116,11 +123,7 @@ private:
     modulusMatrix curvature(const tensor& C, label k) const override
     {
         const strained s = in(C, k);
-        modulusMatrix turn;
-        for (int r = 0; r < 3; ++r)
-            for (int c = 0; c < 3; ++c)
-                for (int m = 0; m < 3; ++m)
-                    for (int n = 0; n < 3; ++n) turn(r + 3 * c, m + 3 * n) = s.A(r, m) * s.A(c, n);
+        const modulusMatrix turn = turnOf(s.A);
         const modulusMatrix inAxes = s.slope * s.slope.transpose() + 2 * B_;
         return c_ / 8 * std::exp(s.Q) * turn * inAxes * turn.transpose();
     }
