@@ -70,8 +70,16 @@ void fsiCase::read()
         throw fatalError(time.folder() +
                          " has another solid, other zones or another spacing "
                          "than the time before: it belongs to another case");
+    const auto restOf = [](const particleCloud& c) {
+        const auto found = c.vectors.find(restPlaces);
+        return found == c.vectors.end() ? List<vec4>() : found->second;
+    };
+    const List<vec4> before = restOf(cloud), after = restOf(then);
     cloud = std::move(then);
     readBoundary();
+    if (!std::equal(before.begin(), before.end(), after.begin(), after.end(),
+                    [](const vec4& a, const vec4& b) { return a.xyz() == b.xyz(); }))
+        makeStructure();  // a prestress has found the rest since
     recallSolid(*this);
 }
 
@@ -87,6 +95,11 @@ void fsiCase::readProperties()
                : rho * physical.getInRange("nu", 0, 1e30, dims::kinematicViscosity);
     viscosity = viscosityModel::New(physical, mu);
     if (!viscosity) cloud.scalars.erase(viscosityRatio);  // of an earlier run with a model
+    else if (List<scalar>& of = cloud.scalars[viscosityRatio]; of.empty())
+    {
+        of.assign(cloud.n(), viscosity->ratio(0));  // until the first step
+        std::fill_n(of.begin(), cloud.nSolid(), 1);
+    }
     // all zones are one incompressible system with one density
     const dictionary zoneRho = physical.subOrEmptyDict("zoneDensities");
     for (const word& zone : zoneRho.keys())
@@ -193,6 +206,16 @@ void fsiCase::makeStructure()
     for (const zoneInfo& z : cloud.zones) ref.zoneNames.push_back(z.name);
     for (const structureImage& m : walls->images()) ref.images.push_back({m.R, m.t});
     structure = structureModel::New(structureProperties, ref);
+}
+
+List<scalar> fsiCase::solidModuli() const
+{
+    List<scalar> moduli;
+    if (!structure) return moduli;
+    for (label i = 0; i < cloud.nSolid(); ++i) moduli.push_back(structure->shearModulus(i));
+    const bool one = std::all_of(moduli.begin(), moduli.end(),
+                                 [&](scalar G) { return G == moduli.front(); });
+    return one ? List<scalar>() : moduli;
 }
 
 scalar fsiCase::stepEnd(scalar now) const

@@ -3,6 +3,7 @@
 
 #include "fileNames.H"
 
+#include <algorithm>
 #include <charconv>
 
 namespace ispf
@@ -30,8 +31,10 @@ word shortest(scalar value)
 
 }  // namespace
 
-void writeSeries(const word& path, const List<seriesEntry>& entries)
+void writeSeries(const word& path, List<seriesEntry> entries)
 {
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const seriesEntry& a, const seriesEntry& b) { return a.time > b.time; });
     word json = "{\n  \"file-series-version\" : \"1.0\",\n  \"files\" : [";
     const char* separator = "\n";
     for (const seriesEntry& entry : entries)

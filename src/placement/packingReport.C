@@ -194,6 +194,12 @@ void reportPacking(const zoneGeometry& geometry, const placedParticles& placed,
                     (bodyFitted ? "a finer dx; a zone of few particles cannot hold half of one"
                                 : "a dx that divides its lengths, or placement bodyFitted"));
     }
+    for (size_t z = 0; z < quality.size(); ++z)
+        if (const scalar layers = quality[z].layers; layers > 0 && layers < 2.5)
+            warning("Zone " + geometry.zones()[z].name + " has " + str(layers, 2) +
+                    " layers of particles where it is thinnest. So few cannot bend: a strip of two "
+                    "goes a thirtieth of a beam's way. They carry what stretches them alone, as a "
+                    "pressure within a tube does. Choose a finer dx; 4 layers bend");
     for (const zoneOverlap& o : overlaps)
         out << "zones overlap: " << geometry.zones()[o.zone].name << " takes " << str(o.volume, 4)
             << (geometry.nDims() == 3 ? " m3" : " m2") << " of " << geometry.zones()[o.of].name

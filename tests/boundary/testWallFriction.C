@@ -163,7 +163,7 @@ TEST_CASE(
     makeShearExact(s.cloud, s.list);
     for (label i = 0; i < s.cloud.n(); ++i)
         for (auto k = s.list.mid[i]; k < s.list.start[i + 1]; ++k)
-            CHECK(s.cloud.wallFactor(i, s.list.index[k]) == 2);
+            CHECK(s.cloud.friction(i, s.list.index[k]) == 2);
 }
 
 TEST_CASE("the number of a row is held within a half and two")
@@ -177,7 +177,7 @@ TEST_CASE("the number of a row is held within a half and two")
         {
             const label j = s.list.index[k];
             if (s.cloud.phase[j] != phaseType::rigid) continue;
-            const scalar scale = s.cloud.wallFactor(i, j) / plain.cloud.wallFactor(i, j);
+            const scalar scale = s.cloud.friction(i, j) / plain.cloud.friction(i, j);
             least = std::min(least, scale), most = std::max(most, scale);
         }
     CHECK(least >= 0.5 * (1 - 1e-12));

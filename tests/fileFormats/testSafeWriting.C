@@ -75,8 +75,8 @@ TEST_CASE("the series lists every time in full precision")
           "{\n"
           "  \"file-series-version\" : \"1.0\",\n"
           "  \"files\" : [\n"
-          "    { \"name\" : \"0/particles.hdf\", \"time\" : 0 },\n"
-          "    { \"name\" : \"0.3/parti\\\"cles.hdf\", \"time\" : 0.30000000000000004 }\n"
+          "    { \"name\" : \"0.3/parti\\\"cles.hdf\", \"time\" : 0.30000000000000004 },\n"
+          "    { \"name\" : \"0/particles.hdf\", \"time\" : 0 }\n"
           "  ]\n"
           "}\n");
     writeSeries(path, {});

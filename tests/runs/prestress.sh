@@ -17,9 +17,11 @@ END
 setEntry system/particleDict zones.wall.outerRadius 13e-3
 setEntry constant/boundary inlet.flowRate "{ type sine; amplitude 78e-6; frequency 1; }"
 setEntry system/controlDict endTime 0.5
+echo "functions { stress { type solidStress; writeControl writeTime; } }" >> system/controlDict
 place; solved
 setEntry system/controlDict endTime 1
 ispfFsiFoam > log.again 2>&1 || fail "continued: $(tail -n 5 log.again)"
+grep -q "prestress: the places at rest were found at the start" log.again || fail "it is not told that nothing is searched"
 grep -q Prestress log.again && fail "the rest is searched again"
 [ "$(grep -c Prestress log)" -gt 2 ] || fail "no pass is told"
 sed "/^(/!d; s/[()]//g" 0.5/x0 > x0; sed "/^(/!d; s/[()]//g" 0.5/restPlaces > rest; sed -n "/^(/,\$p" 0.5/zone | sed "/^[0-9]/!d" > zone
@@ -29,6 +31,18 @@ awk 'NF == 7 && $7 == 0 { n++; sum += (sqrt($4^2 + $5^2) - sqrt($1^2 + $2^2 - 20
 first=$(awk '!/^#/ { print $2; exit }' postProcessing/chamber/0/p) last=$(awk 'END { print $2 }' postProcessing/chamber/0.5/p)
 echo "    pressure $first Pa at the start, $last Pa after a cycle; asked $pressure"
 awk -v a="$first" -v b="$last" -v p="$pressure" 'BEGIN { exit !((b/a - 1)^2 < 1e-6 && (a/p - 1)^2 < 1e-6) }' || fail "the pressure drifts"
+
+# the times that are written, the start among them, have the stress that the run has measured
+cp -r postProcessing run; rm -rf postProcessing; ispfPostProcess -func stress > log.post 2>&1 || fail "ispfPostProcess: $(tail -n 3 log.post)"
+for t in 0.25 0.5; do
+    grep -h "^ *$t[[:space:]]" run/stress/0/solidStress.dat > one; grep -h "^ *$t[[:space:]]" postProcessing/stress/0/solidStress.dat > other
+    [ -s one ] && cmp -s one other || fail "the stress at $t s: $(cat one other)"
+done
+
+sed -i "s/^prestress/without/" constant/structureProperties; cp -r . ../late; sed -i "s/^without/prestress/" constant/structureProperties
+(cd ../late && rm -rf 0.* 1 && sed -i "/^without/d" constant/structureProperties && setEntry system/controlDict endTime 0.02 && setEntry system/controlDict writeInterval 0.02 && ispfFsiFoam > log 2>&1 &&
+    echo "prestress { pressures { lumen $pressure; } }" >> constant/structureProperties && setEntry system/controlDict endTime 0.04; ispfFsiFoam > log 2>&1
+    grep -q "The case has run without it until 0.02 s" log) || fail "prestress of a case that has run: $(tail -n 3 ../late/log)"
 
 # refused: springs, a solid zone, no such zone, an entry without effect, more than the wall can carry
 refused() { # entry words...

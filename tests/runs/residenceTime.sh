@@ -28,7 +28,17 @@ columns() {
 control 1 "$age"; place; solved
 columns 1 | awk '$1 > 0.012 && $1 < 0.0195 { ++n; if (($4 - 1)^2 > 1e-20) bad = 1 } END { exit !(n > 30) || bad }' ||
     fail "fluid that was there at the start has not the time of the run"
+rm -rf ../run; cp -r postProcessing ../run; rm -rf postProcessing
+ispfPostProcess > log 2>&1 || fail "ispfPostProcess: $(tail -n 5 log)"
+diff <(awk '!/^#/ { print $2, $3 }' ../run/age/0/residenceTime.dat | sed -n '1p;$p') \
+    <(awk '!/^#/ { print $2, $3 }' postProcessing/age/0/residenceTime.dat | sed -n '1p;$p') || fail "afterwards the mean is another one"
+rm -rf postProcessing; cp -r ../run postProcessing
 cp -r . ../whole
+rm -rf [1-9]* postProcessing
+control 1 "age { type residenceTime; timeStart 0.29; }"; solved    # within the 15th step
+columns 1 | awk '$1 > 0.012 && $1 < 0.0195 { ++n; if (($4 - 0.71)^2 > 1e-20) bad = 1 } END { exit !(n > 30) || bad }' ||
+    fail "the time before timeStart counts"
+rm -rf ../channel/*; cp -r ../whole/. .
 control 4 "$age"; solved                                    # continued from 1 s
 columns 4 | awk '$1 > 0 && $1 < 0.0195 { e = $4 - $1/0.01; ++n; s += e*e; if (e > most) most = e; if (-e > most) most = -e }
     $1 < -0.001 && $4 != 0 { outside = 1 }

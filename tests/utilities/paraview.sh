@@ -6,6 +6,7 @@ command -v pvpython > /dev/null || { echo "  ParaView is not installed (bin/inst
 . "$(dirname "$0")/../cases/functions"
 
 newCase membrane opened
+echo "functions { age { type residenceTime; } }" >> system/controlDict
 place
 solved
 cat > look.py <<'END'
@@ -17,6 +18,9 @@ for time in series.TimestepValues:
     p = data.GetPointData().GetArray("p")
     u = data.GetPointData().GetArray("U")
     print("%.6g %d %d %.6g %.6g" % (time, data.GetNumberOfPoints(), u.GetNumberOfComponents(), *p.GetRange()))
+# a field that the run carries and the start has not is offered as well
+if not data.GetPointData().GetArray("residenceTime"):
+    raise SystemExit("there is no residenceTime: " + str(list(series.PointArrayStatus)))
 END
 timeout 300 pvpython look.py > seen 2> log.paraview || fail "pvpython: $(tail -n 3 log.paraview)"
 for file in $(ls -d */particles.hdf | sort -g); do

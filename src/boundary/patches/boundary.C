@@ -255,6 +255,13 @@ bool boundary::isTwoSided(const word& name) const
     return content_->walls.named(name).twoSided;
 }
 
+List<word> boundary::wallNames() const
+{
+    List<word> names;
+    for (const wall& w : content_->walls.walls()) names.push_back(w.name);
+    return names;
+}
+
 List<word> boundary::noSlipWalls() const
 {
     List<word> names;

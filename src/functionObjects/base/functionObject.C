@@ -76,9 +76,7 @@ void functionObject::listTimes(const word& file) const
         if (end != time.c_str() && !*end && std::filesystem::exists(item.path() / file))
             series.push_back({t, time + "/" + file});
     }
-    std::sort(series.begin(), series.end(),
-              [](const auto& a, const auto& b) { return a.time < b.time; });
-    writeSeries(folder(file + ".series"), series);
+    writeSeries(folder(file + ".series"), std::move(series));
 }
 
 }  // namespace ispf

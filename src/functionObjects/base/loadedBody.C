@@ -67,10 +67,21 @@ loadedBody loadedBody::openFace(const word& face, const fsiCase& c)
 List<loadedBody> loadedBody::chosen(const dictionary& dict, const fsiCase& c)
 {
     List<loadedBody> all;
-    const List<word> open = c.walls->openFaces();
+    const List<word> open = c.walls->openFaces(), walls = c.walls->wallNames();
+    const auto isIn = [](const List<word>& names, const word& name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
     for (const word& b : dict.getOrDefault<List<word>>("patches", {}))
-        if (std::find(open.begin(), open.end(), b) != open.end()) all.push_back(openFace(b, c));
-        else all.push_back(wall(b, c, dict.where("patches")));
+        if (isIn(open, b)) all.push_back(openFace(b, c));
+        else if (isIn(walls, b)) all.push_back(wall(b, c, dict.where("patches")));
+        else
+        {
+            List<word> valid = walls;
+            valid.insert(valid.end(), open.begin(), open.end());
+            throw fatalError("There is no wall or open face '" + b + "'." + didYouMean(b, valid) +
+                                 "\n" + validWords("patch", valid),
+                             dict.where("patches"));
+        }
     for (const word& b : dict.getOrDefault<List<word>>("zones", {}))
         all.push_back(solid(b, c, dict.where("zones")));
     for (const word& b : dict.getOrDefault<List<word>>("surfaces", {}))

@@ -222,6 +222,18 @@ void functionObjectList::placeWalls()
     else case_.walls->setStepBehind(now - case_.time.deltaTBehind(), now);
 }
 
+// Sets what a file does not have: the place of the walls and, of p and U, where a face gives them
+void functionObjectList::placeRead()
+{
+    placeWalls();
+    if (items_.empty() || !case_.walls->hasOpen()) return;
+    particleCloud& cloud = case_.cloud;
+    const List<vec4> read = cloud.Up;
+    cloud.clearGhosts();
+    case_.walls->setFlags(cloud, case_.rho, case_.bodyForceAt(case_.time.value()));
+    cloud.Up = read;
+}
+
 void functionObjectList::restore()
 {
     for (item& i : items_)
@@ -237,7 +249,7 @@ void functionObjectList::timed(const item& i, Work&& work)
 
 void functionObjectList::start()
 {
-    placeWalls();
+    placeRead();
     for (item& i : items_)
         if (i.write.control != "none" && i.write.control != "onEnd" && within(i))
             timed(i, [&] { i.object->write(); });
@@ -247,12 +259,14 @@ void functionObjectList::execute()
 {
     renew();
     placeWalls();
+    const Time& time = case_.time;
     for (item& i : items_)
     {
         const bool now = due(i.execute), writes = due(i.write);
         if (!within(i)) continue;
         timed(i, [&] {
-            i.object->advance(case_.cloud, case_.time.deltaT());
+            // timeStart may lie within the step
+            i.object->advance(case_.cloud, std::clamp(time.value() - i.from, 0., time.deltaT()));
             if (now) i.object->execute();
             if (writes) i.object->write();
         });
@@ -278,7 +292,7 @@ void functionObjectList::finish(item& i)
 
 void functionObjectList::writeNow()
 {
-    placeWalls();
+    placeRead();
     restore();
     for (item& i : items_)
         if (i.write.control != "onEnd" && within(i)) i.object->write();

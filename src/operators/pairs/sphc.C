@@ -27,16 +27,18 @@ tensor viscousCorrection(const stencil& s, label i)
     return stretched && m.determinant() > singular ? tensor(m.inverse()) : s.B.all[i];
 }
 
-// value(grad u) per owned particle
-template <class Value>
-List<scalar> fromGradient(const stencil& s, const List<vec4>& phi, const Value& value)
+// value(grad u) per owned particle; factor(i, j) of phi_j - phi_i
+template <class Factor, class Value>
+List<scalar> fromGradient(const stencil& s, const List<vec4>& phi, const Factor& factor,
+                          const Value& value)
 {
     List<scalar> result(s.cloud.n());
     parallelFor(s.cloud.n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i)
         {
             pairSums sums;
-            sums.add(s.list, s.cloud.x.data(), phi.data(), i, rowOf<among::all>(s.list, i));
+            sums.add(s.list, s.cloud.x.data(), phi.data(), i, rowOf<among::all>(s.list, i),
+                     [&](label j) { return factor(i, j); });
             tensor gradU;
             for (int a = 0; a < 3; ++a) gradU.row(a) = (s.B.all[i] * sums.gradient(a)).transpose();
             result[i] = value(gradU);
@@ -49,14 +51,16 @@ List<scalar> fromGradient(const stencil& s, const List<vec4>& phi, const Value& 
 
 List<scalar> sphc::gradSquaredTrace(const stencil& s, const List<vec4>& phi)
 {
-    return fromGradient(s, phi, [](const tensor& gradU) { return (gradU * gradU).trace(); });
+    return fromGradient(
+        s, phi, [](label, label) { return 1.; },
+        [](const tensor& gradU) { return (gradU * gradU).trace(); });
 }
 
 List<scalar> sphc::shearRate(const stencil& s, const List<vec4>& phi)
 {
-    return fromGradient(s, phi, [](const tensor& gradU) {
-        return std::sqrt(0.5) * (gradU + gradU.transpose()).norm();
-    });
+    return fromGradient(
+        s, phi, [&](label i, label j) { return s.cloud.goesOn(i, j); },
+        [](const tensor& gradU) { return std::sqrt(0.5) * (gradU + gradU.transpose()).norm(); });
 }
 
 List<scalar> sphc::laplacianScale(const stencil& s)

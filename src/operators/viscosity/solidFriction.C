@@ -34,7 +34,7 @@ vec4 viewOf(const particleCloud& cloud, const neighbourList& list, label i)
         if (way.norm() < least) least = way.norm(), next = way;
     });
     if (size == 0) return vec4{};
-    if (out.norm() < oneSided * size) return vec4{simd4{0, 0, 0, 2}};
+    if (out.norm() < oneSided * size) return vec4{simd4{0, 0, 0, 1}};
     const vector n = out.normalized();
     const scalar d = std::max(n.dot(next) - surfaceAt * cloud.dx, nearest * cloud.dx);
     vec4 view = vec4::from(n / d, 1);

@@ -7,37 +7,45 @@ namespace ispf
 namespace
 {
 
-// F_ij, and 0 if one of the two has no equation for p: C has no such pair
-scalar weightOf(const neighbourList& list, const List<scalar>& tau, pairIndex k)
+// The pairs of C
+struct solidPairs
 {
-    return tau[k] > 0 ? list.F[k] : 0;
-}
+    const neighbourList& list;
+    const List<scalar>&tau, &share;
+
+    // r_ij F_ij of (7.23), and 0 if one of the two has no equation for p: C has no such pair
+    scalar weight(pairIndex k) const
+    {
+        if (!(tau[k] > 0)) return 0;
+        return share.empty() ? list.F[k] : share[k] * list.F[k];
+    }
+};
 
 // B_i of the solid's own gradient, over the pairs of C
-void ownInverses(const particleCloud& cloud, const neighbourList& list, const List<scalar>& tau,
-                 List<tensor>& B)
+void ownInverses(const particleCloud& cloud, const solidPairs& pairs, List<tensor>& B)
 {
     const tensor start = vector(0, 0, cloud.nDims == 2 ? 1 : 0).asDiagonal();
     B.resize(cloud.nSolid());
     forEach(0, cloud.nSolid(), [&](label i) {
         tensor M = start;
-        forNeighbours<among::same>(list, i, [&](pairIndex k, label j) {
+        forNeighbours<among::same>(pairs.list, i, [&](pairIndex k, label j) {
             const vector d = cloud.x[i].xyz() - cloud.x[j].xyz();
-            M -= weightOf(list, tau, k) * d * d.transpose();
+            M -= pairs.weight(k) * d * d.transpose();
         });
         B[i] = kernelCorrection::inverse(M);
     });
 }
 
 // Writes the solid's own gradient of p to gs, for the stabiliser
-void ownGradient(const particleCloud& cloud, const neighbourList& list, const List<scalar>& tau,
-                 const List<tensor>& B, List<vec4>& gs)
+void ownGradient(const particleCloud& cloud, const solidPairs& pairs, const List<tensor>& B,
+                 List<vec4>& gs)
 {
     forEach(0, cloud.nSolid(), [&](label i) {
-        const simd4 g = sumNeighbours<among::same>(list, i, simd4{}, [&](pairIndex k, label j) {
-            const scalar dp = gs[j].s[3] - gs[i].s[3];
-            return (weightOf(list, tau, k) * dp) * (cloud.x[i].s - cloud.x[j].s);
-        });
+        const simd4 g =
+            sumNeighbours<among::same>(pairs.list, i, simd4{}, [&](pairIndex k, label j) {
+                const scalar dp = gs[j].s[3] - gs[i].s[3];
+                return (pairs.weight(k) * dp) * (cloud.x[i].s - cloud.x[j].s);
+            });
         gs[i].setXyz(B[i] * vector(g[0], g[1], g[2]));
     });
 }
@@ -74,18 +82,23 @@ void coupledRows::setup(particleCloud& cloud, const neighbourList& list, const k
     viscous_.setup({cloud, list, B});
 }
 
-void coupledRows::setTau(const List<scalar>& tau, scalar fluidTau)
+void coupledRows::setTau(const List<scalar>& tau, scalar fluidTau, const List<scalar>& moduli)
 {
     fluidTau_ = fluidTau;
     const label nSolid = cloud_->nSolid();
     if (nSolid == 0) return;
     pairTau_.resize(list_->start[nSolid]);
+    pairShare_.resize(moduli.empty() ? 0 : pairTau_.size());
     forPairs<among::same>(*list_, 0, nSolid, [&](label i, pairIndex k, label j) {
         const label source = cloud_->ownerOf(j);
         const scalar a = tau[i], b = tau[source];
         pairTau_[k] = acts(i) && acts(source) ? 2 * a * b / (a + b) : 0;
+        if (moduli.empty()) return;
+        const scalar G = moduli[i], H = moduli[source];
+        pairShare_[k] = 4 * G * H / ((G + H) * (G + H));
+        pairTau_[k] *= pairShare_[k];
     });
-    ownInverses(*cloud_, *list_, pairTau_, ownB_);
+    ownInverses(*cloud_, {*list_, pairTau_, pairShare_}, ownB_);
 }
 
 void coupledRows::gradient(const List<vec4>& phi, List<vec4>& gp) const
@@ -121,7 +134,7 @@ void coupledRows::solidStabiliser(List<vec4>& gs, List<scalar>& cp) const
 {
     cp.resize(cloud_->n());
     if (!volume_) return;
-    ownGradient(*cloud_, *list_, pairTau_, ownB_, gs);
+    ownGradient(*cloud_, {*list_, pairTau_, pairShare_}, ownB_, gs);
     cloud_->fillGradientGhosts(gs);
     parallelFor(cloud_->nSolid(), [&](label begin, label end) {
         solidStabiliserRange(*list_, cloud_->x.data(), pairTau_.data(), begin, end, gs.data(),

@@ -40,7 +40,7 @@ void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solid
                           return cloud.volume() / (inertiaAlone - viscousFactor() * viscous[i]);
                       }) /
                 scalar(cloud.n() - cloud.nSolid());
-    rows_.setTau(stabiliserTau(stiffness), fluidTau_);
+    rows_.setTau(stabiliserTau(stiffness), fluidTau_, c_.solidModuli());
     outlets_.setup(cloud, c_.walls->outletLinks(), dt / (c_.rho * cloud.dx));
     enclosed_.setup([this](const List<vec4>& phi, List<vec4>& gp) { rows_.solidGradient(phi, gp); },
                     surface);

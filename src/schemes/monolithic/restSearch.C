@@ -255,6 +255,11 @@ void findRest(fsiCase& c, const monolithicPreconditioner::entries& e, scalar the
                                    "Springs have their rest lengths from the particles' places. "
                                    "Take structureModel totalLagrangian");
     const auto rest = c.cloud.vectors.find("x0");
+    if (c.time.timeIndex() > 0 && !c.cloud.vectors.count(restPlaces))
+        c.structureProperties.fail(
+            "prestress", "The case has run without it until " + c.time.timeName() +
+                             " s, and it belongs to the start. Remove the time folders but the "
+                             "first, or leave it away");
     if (rest != c.cloud.vectors.end() && !c.cloud.vectors.count(restPlaces))
         for (label i = 0; i < c.cloud.nSolid(); ++i)
             if ((rest->second[i].xyz() - c.cloud.x[i].xyz()).norm() > 1e-6 * c.cloud.dx)
@@ -265,6 +270,7 @@ void findRest(fsiCase& c, const monolithicPreconditioner::entries& e, scalar the
     const scalar forgets = std::min(1 - theta, volumeFeedback);
     restSearch search(c, dict, e, forgets > 0 ? forgets / volumeFeedback : 0);
     if (!c.cloud.vectors.count(restPlaces)) search.run();
+    else info() << "prestress: the places at rest were found at the start; its pressures count there alone\n";
 }
 
 }  // namespace ispf
