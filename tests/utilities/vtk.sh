@@ -17,7 +17,7 @@ solved
 cat > look.py <<'END_OF_SCRIPT'
 import json
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
-for file in json.load(open("particles.vtp.series"))["files"]:
+for file in reversed(json.load(open("particles.vtp.series"))["files"]):  # the newest is first
     reader = vtkXMLPolyDataReader()
     reader.SetFileName(file["name"])
     reader.Update()
