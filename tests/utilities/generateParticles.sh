@@ -41,7 +41,9 @@ for zones in 'ch { phase fluid; shape box; min (-0.2 0 0); max (0.2 0.1 0); } ba
     'tank { phase fluid; shape box; min (-0.1 0 0); max (0.3 0.2 0); } plate { phase solid; shape box; min (0 0.1 0); max (0.2 0.12 0); }' \
     'tank { phase fluid; shape box; min (-0.1 0 0); max (0.5 0.2 0); } plate { phase solid; shape box; min (0 0.1 0); max (0.4 0.14 0); }'; do
     echo "dx 0.01; nDims 2; zones { $zones }" > system/particleDict
-    generateParticles > out 2>&1 && grep -Eq '^plate +[^ ]+ +[0-9]+ +[-+]0.00' out && ! grep -q Warning out || fail "a thin plate: $(tail -n 8 out)"
+    generateParticles > out 2>&1 && grep -Eq '^plate +[^ ]+ +[0-9]+ +[-+]0.00' out && ! grep Warning out | grep -qv "has 2 layers" || fail "a thin plate: $(tail -n 8 out)"
+    [ "$(grep -c "has 2 layers of particles where it is thinnest. So few cannot bend" out)" = "$(grep -c '(0.2 0.12 0)' system/particleDict)" ] ||
+        fail "two layers, and they alone, are told: $(tail -n 8 out)"
 done
 # each layer along a wall's surfaces has the particles of its area: layersOf inner outer layers, radii in dx, for a quarter
 cp constant/boundary keptBoundary
