@@ -213,8 +213,8 @@ List<scalar> fsiCase::solidModuli() const
     List<scalar> moduli;
     if (!structure) return moduli;
     for (label i = 0; i < cloud.nSolid(); ++i) moduli.push_back(structure->shearModulus(i));
-    const bool one = std::all_of(moduli.begin(), moduli.end(),
-                                 [&](scalar G) { return G == moduli.front(); });
+    const bool one =
+        std::all_of(moduli.begin(), moduli.end(), [&](scalar G) { return G == moduli.front(); });
     return one ? List<scalar>() : moduli;
 }
 

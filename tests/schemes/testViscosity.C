@@ -63,7 +63,8 @@ boxCase channel(const word& coupling, const word& model, const word& wallKind = 
 
 }  // namespace
 
-TEST_CASE("steady profiles of shear-thinning blood in a channel, both couplings, both kinds of walls")
+TEST_CASE(
+    "steady profiles of shear-thinning blood in a channel, both couplings, both kinds of walls")
 {
     for (const word coupling : {"projection", "monolithic"})
         for (const word wall : {"mirror", "particles"})
@@ -105,8 +106,7 @@ TEST_CASE("flow of shear-thinning blood between two elastic slabs")
         const scalar h = 0.5 * rows * elasticSlabs::dx;
         scalar flow = 0;
         constexpr int n = 200;
-        for (int k = 0; k < n; ++k)
-            flow += 2 * h / n * exact(viscosity, h * (k + 0.5) / n, h);
+        for (int k = 0; k < n; ++k) flow += 2 * h / n * exact(viscosity, h * (k + 0.5) / n, h);
         CHECK(elasticSlabs::flow(c.cloud) == relative(flow, 0.02));
     }
 }

@@ -270,7 +270,9 @@ void findRest(fsiCase& c, const monolithicPreconditioner::entries& e, scalar the
     const scalar forgets = std::min(1 - theta, volumeFeedback);
     restSearch search(c, dict, e, forgets > 0 ? forgets / volumeFeedback : 0);
     if (!c.cloud.vectors.count(restPlaces)) search.run();
-    else info() << "prestress: the places at rest were found at the start; its pressures count there alone\n";
+    else
+        info() << "prestress: the places at rest were found at the start; its pressures count "
+                  "there alone\n";
 }
 
 }  // namespace ispf
