@@ -116,6 +116,18 @@ void openFace::findFeet(const particleCloud& cloud) const
     });
 }
 
+std::uint8_t openFace::zoneOf(const particleCloud& cloud, label i) const
+{
+    const surfaceFoot& f = known_[i].foot;
+    if (areas_.count(cloud.zone[i]) || areas_.empty() || !f.found || f.aside > 0)
+        return cloud.zone[i];
+    if (areas_.size() == 1) return areas_.begin()->first;
+    const auto distance = [&](const spot& s) { return (s.foot - f.foot).squaredNorm(); };
+    return std::min_element(spots_.begin(), spots_.end(),
+                            [&](const spot& a, const spot& b) { return distance(a) < distance(b); })
+        ->zone;
+}
+
 bool openFace::beyondStrip(const vector& x) const
 {
     const surfaceFoot f = surface_->find(x);

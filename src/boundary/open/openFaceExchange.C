@@ -40,19 +40,22 @@ struct openFace::census
     {
     }
 
-    // Calls share(j, weight) for the fluid of a zone within 1.5 dx of x; the sum of the weights is one
+    // Calls share(j, weight) for the fluid of a zone within 1.5 dx of x, for any if there is none of it; the sum of the weights is
+    // one
     template <class Share>
     void around(const vector& x, std::uint8_t zone, Share&& share) const
     {
-        List<std::pair<label, scalar>> found;
-        scalar sum = 0;
+        List<std::pair<label, scalar>> found[2];  // of other zones, of this one
+        scalar sums[2] = {0, 0};
         const scalar radius = 1.5 * cloud.dx;
         particles.within(x, radius, [&](label k, scalar r) {
             const label j = index[k];
-            if (!cloud.isFluid(j) || cloud.zone[j] != zone) return;
-            found.push_back({j, radius - r}), sum += radius - r;
+            if (!cloud.isFluid(j)) return;
+            const bool own = cloud.zone[j] == zone;
+            found[own].push_back({j, radius - r}), sums[own] += radius - r;
         });
-        for (const auto& [j, w] : found) share(j, w / sum);
+        const bool own = !found[1].empty();
+        for (const auto& [j, w] : found[own]) share(j, w / sums[own]);
     }
 };
 

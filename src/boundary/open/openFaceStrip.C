@@ -94,7 +94,7 @@ void openFace::setStrip(particleCloud& cloud, const movingWalls& walls) const
     cloud.stripIntake.resize(cloud.stripArea.size(), 0);
     for (label i = cloud.nSolid(); i < cloud.n(); ++i)
         if (const surfaceFoot& f = known_[i].foot; f.found && f.depth > 0)
-            if (const auto found = areas_.find(cloud.zone[i]); found != areas_.end())
+            if (const auto found = areas_.find(zoneOf(cloud, i)); found != areas_.end())
                 cloud.strip[i] = firstStrip_ + label(std::distance(areas_.begin(), found));
 }
 
@@ -158,6 +158,7 @@ struct openFace::valueBefore
     scalar radius;
     pointGrid feet;
     List<label> index;
+    List<std::uint8_t> zone;
     List<vector> value;
 
     template <class ValueOf>
@@ -167,7 +168,10 @@ struct openFace::valueBefore
         for (label i = cloud.nSolid(); i < cloud.n(); ++i)
             if (const surfaceFoot& f = face.known_[i].foot;
                 f.found && f.depth <= 0 && f.depth > -face.depth_)
+            {
                 feet.add(f.foot), index.push_back(i), value.push_back(valueOf(i));
+                zone.push_back(face.zoneOf(cloud, i));
+            }
         List<vector> twice(value.size());
         parallelFor(
             label(value.size()),
@@ -175,7 +179,7 @@ struct openFace::valueBefore
                 for (label k = begin; k < end; ++k)
                 {
                     vector once = value[k];
-                    mean(face.known_[index[k]].foot.foot, cloud.zone[index[k]], once);
+                    mean(face.known_[index[k]].foot.foot, zone[k], once);
                     twice[k] = 2 * value[k] - once;
                 }
             },
@@ -183,11 +187,11 @@ struct openFace::valueBefore
         value = std::move(twice);
     }
 
-    void mean(const vector& foot, std::uint8_t zone, vector& u) const
+    void mean(const vector& foot, std::uint8_t of, vector& u) const
     {
         weightedMean<vector> sum;
         feet.within(foot, radius, [&](label k, scalar r) {
-            sum.add(value[k], weight(r / radius), cloud.zone[index[k]] == zone);
+            sum.add(value[k], weight(r / radius), zone[k] == of);
         });
         sum.get(u);
     }
@@ -222,8 +226,9 @@ struct openFace::slopeBefore
             const auto& [x, f, u] = face.known_[i];
             if (!f.found || f.depth > 0 || f.depth < -before * dx) continue;
             const auto cell = [&](int k) { return int(std::floor(f.foot[k] / dx)); };
-            bin& b = squares[{cell(0), cell(1), cell(2), cloud.zone[i]}];
-            b.n += 1, b.foot += f.foot, b.zone = cloud.zone[i];
+            const std::uint8_t zone = face.zoneOf(cloud, i);
+            bin& b = squares[{cell(0), cell(1), cell(2), zone}];
+            b.n += 1, b.foot += f.foot, b.zone = zone;
             const auto add = [&](int k, const vector& v) {
                 b.value[k] += 1, b.value.segment<3>(k + 1) += v;
             };
@@ -275,17 +280,18 @@ void openFace::followInside(particleCloud& cloud, const List<vec4>& friction, sc
             {
                 const surfaceFoot& f = known_[i].foot;
                 if (!f.found || f.depth < -(inflow_ ? depth_ : dx_)) continue;
-                carried[i] = slope.at(f, cloud.zone[i]);
+                const std::uint8_t zone = zoneOf(cloud, i);
+                carried[i] = slope.at(f, zone);
                 if (f.depth <= 0) continue;
                 if (pressure)
                 {
                     vector p(cloud.Up[i][3], 0, 0);
-                    pressure->mean(f.foot, cloud.zone[i], p);
+                    pressure->mean(f.foot, zone, p);
                     cloud.Up[i][3] = p[0];
                 }
                 if (!velocity) continue;
                 vector u = cloud.Up[i].xyz();
-                velocity->mean(f.foot, cloud.zone[i], u);
+                velocity->mean(f.foot, zone, u);
                 cloud.Up[i].setXyz(u);
             }
         },
