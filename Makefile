@@ -169,7 +169,7 @@ $(B)/%.o: %.C Makefile $(addsuffix .gch,$(PRECOMPILED))
 	@mkdir -p $(@D); echo "CXX  $<"
 	@$(CXX) $(CXXFLAGS) $(addprefix -include ,$(PRECOMPILED)) $(INC) -MMD -MP -c $< -o $@
 
-test: all testPrograms ## install what is missing, build and run every test (at most 20 minutes; OPT=Sanitize: hours)
+test: all testPrograms ## install what is missing, build and run every test, JOBS at a time (OPT=Sanitize: hours)
 	@ISPF_BIN=$(B)/bin JOBS=$(or $(JOBS),$(shell nproc)) OMP_NUM_THREADS=1 LIMIT=$(if $(filter Release,$(OPT)),1800,36000) bin/runTests $(B)/testPrograms
 
 validate: all ## every tutorial against its reference (at most 2 hours on 2 cores); CASES="a b" runs a choice of them

@@ -210,12 +210,13 @@ void fsiCase::makeStructure()
 
 List<scalar> fsiCase::solidModuli() const
 {
-    List<scalar> moduli;
-    if (!structure) return moduli;
-    for (label i = 0; i < cloud.nSolid(); ++i) moduli.push_back(structure->shearModulus(i));
-    const bool one =
-        std::all_of(moduli.begin(), moduli.end(), [&](scalar G) { return G == moduli.front(); });
-    return one ? List<scalar>() : moduli;
+    const auto modulus = [&](label i) { return structure->shearModulus(i); };
+    bool differ = false;
+    for (label i = 1; structure && i < cloud.nSolid() && !differ; ++i)
+        differ = modulus(i) != modulus(0);
+    List<scalar> moduli(differ ? cloud.nSolid() : 0);
+    for (label i = 0; i < label(moduli.size()); ++i) moduli[i] = modulus(i);
+    return moduli;
 }
 
 scalar fsiCase::stepEnd(scalar now) const

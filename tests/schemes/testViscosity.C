@@ -90,7 +90,7 @@ TEST_CASE(
             }
 }
 
-// Until now the pair of fluid and solid had the harmonic mean with a solid of mu: 38 % more flow
+// With the harmonic mean of the fluid's viscosity and a solid's mu the flow would be too large by far
 TEST_CASE("flow of shear-thinning blood between two elastic slabs")
 {
     for (const auto& [model, viscosity] : laws)
