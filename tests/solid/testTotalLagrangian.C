@@ -180,6 +180,20 @@ TEST_CASE("with a pressure the tangent has the slope of - p cof F too, and stays
     }
 }
 
+TEST_CASE("a pressure far below that of the surroundings leaves the tangent half of the material's")
+{
+    for (const structureReference& ref : bodies())
+    {
+        const auto model = lagrangian(ref);
+        const List<vec4> x = shaken(ref, 0.1 * ref.dx);
+        blockMatrix3 K = model->tangentPattern(), alone = K;
+        model->assembleTangent(x, tangentKind::positive, alone);
+        model->assembleTangent(x, tangentKind::positive, List<scalar>(size_t(ref.n()), -20 * G), K);
+        K.addScaled(-0.5, alone);
+        CHECK(leastEigenvalue(dense(K)) > -1e-12);
+    }
+}
+
 TEST_CASE("a motion that no gradient sees has energy and a force against it")
 {
     for (const structureReference& ref : {latticeBlock(6, 6, 5), latticeBlock(8, 8, 0)})

@@ -10,6 +10,8 @@
 //     material { type neoHookean; E 1.5e6; }      // or materials { .. }, see zoneMaterials.H
 //     zeroEnergy 0.2;                             // alpha: weight of the third part, over that of G
 //     radius     1.75;                            // reach of the neighbours of F_k [dx]
+//
+// Where moduli differ the defaults are 1 and the support of the kernel: p and the stress jump there, section 5.8.
 #include "forPairs.H"
 #include "stencilTangent.H"
 #include "structureModel.H"
@@ -34,6 +36,13 @@ modulusMatrix positivePart(const modulusMatrix& C)
     const Eigen::SelfAdjointEigenSolver<modulusMatrix> eigen(C);
     return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
            eigen.eigenvectors().transpose();
+}
+
+// (C + T)^+, and at least half of C^+, (7.24)
+modulusMatrix stablePart(const modulusMatrix& C, const modulusMatrix& T)
+{
+    const modulusMatrix K = positivePart(C + T);
+    return K + positivePart(0.5 * positivePart(C) - K);
 }
 
 // Removes the components across the plane of a two-dimensional solid
@@ -69,8 +78,10 @@ public:
     totalLagrangian(const dictionary& dict, const structureReference& ref)
         : structureModel(ref),
           materials_(dict, ref.x0, ref.zone, ref.zoneNames),
-          zeroEnergy_(dict.getInRangeOrDefault("zeroEnergy", 0, 10, 0.2)),
-          near_(within(ref_, dict.getInRangeOrDefault("radius", 1.2, 4, 1.75))),
+          zeroEnergy_(dict.getInRangeOrDefault("zeroEnergy", 0, 10, materials_.differ() ? 1 : 0.2)),
+          near_(within(
+              ref_, dict.getInRangeOrDefault("radius", 1.2, 4,
+                                             materials_.differ() ? ref_.support / ref_.dx : 1.75))),
           fit_(near_),
           pairs_(fit_.neighbours())
     {
@@ -267,12 +278,13 @@ modulusMatrix totalLagrangian::materialModulus(const tensor& F, label k) const
 // C' of (5.23), with the turning force of the pressure, (7.16)
 modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label k, scalar p) const
 {
-    modulusMatrix C = materialModulus(F, k) + volumeOf(k).tangent(F);
-    if (p != 0) C -= p * cofactorDerivative(F);
+    modulusMatrix C = materialModulus(F, k) + volumeOf(k).tangent(F),
+                  turning = -p * cofactorDerivative(F);
     if (remembers(k)) C += networks_->tangent(F, k);
     const bool plane = ref_.nDims == 2;
-    if (plane) keepPlane(C);
-    if (kind == tangentKind::positive) C = positivePart(C);
+    if (plane) keepPlane(C), keepPlane(turning);
+    if (kind == tangentKind::full) C += turning;
+    else C = p < 0 ? stablePart(C, turning) : positivePart(C + turning);
     // its rounding would couple the plane with the direction across it, where nothing but inertia resists
     if (plane) keepPlane(C);
     C *= ref_.volume();

@@ -104,6 +104,11 @@ scalar zoneMaterials::stiffest() const
     return *std::max_element(fast_.begin(), fast_.end());
 }
 
+bool zoneMaterials::differ() const
+{
+    return std::any_of(fast_.begin(), fast_.end(), [&](scalar G) { return G != fast_[0]; });
+}
+
 word zoneMaterials::description() const
 {
     List<word> each;
