@@ -77,15 +77,8 @@ private:
     std::map<std::pair<label, label>, label> cuts_;
 };
 
-}  // namespace
-
-triSurface clipped(const triSurface& surface, const halfSpace& half, scalar tolerance)
-{
-    cutter c(surface, half, tolerance);
-    for (label t = 0; t < surface.size(); ++t) c.cut(t);
-    return c.take();
-}
-
+// Lids over the openings in the plane, as a fan of triangles from one point.  They may overlap with opposite signs: they
+// are right for volume() only
 triSurface lids(const triSurface& surface, const halfSpace& half, scalar tolerance)
 {
     triSurface lid;
@@ -97,6 +90,15 @@ triSurface lids(const triSurface& surface, const halfSpace& half, scalar toleran
             lid.add(half.point, q, p, 0);
     }
     return lid;
+}
+
+}  // namespace
+
+triSurface clipped(const triSurface& surface, const halfSpace& half, scalar tolerance)
+{
+    cutter c(surface, half, tolerance);
+    for (label t = 0; t < surface.size(); ++t) c.cut(t);
+    return c.take();
 }
 
 scalar clippedVolume(const triSurface& surface, const List<halfSpace>& halves)

@@ -158,7 +158,7 @@ void reportPacking(const zoneGeometry& geometry, const placedParticles& placed,
     std::ostream& out = info();
     const auto percent = [](scalar v) {
         char text[32];
-        std::snprintf(text, sizeof text, "%+.2f", 100 * v);
+        std::snprintf(text, sizeof text, "%+.2f", std::round(1e4 * v) / 100 + 0.0);  // no -0.00
         return word(text);
     };
     out << "\nzone              volume  particles  error %   kernel sum %: least   mean    most    "

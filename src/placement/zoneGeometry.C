@@ -2,6 +2,7 @@
 #include "zoneGeometry.H"
 
 #include "cutFacets.H"
+#include "openVolume.H"
 #include "surfaceTopology.H"
 #include <algorithm>
 #include <cmath>
@@ -289,52 +290,33 @@ void zoneGeometry::checkPlanes() const
                                  "): leave one away, it holds for all faces in it");
 }
 
-// Area of a zone's openings in a plane, in two dimensions.  A prism without ends is open there between its open edges and
-// the corners of the plane with other planes within the zone
-scalar zoneGeometry::openingIn(const halfSpace& plane, label zone, scalar height) const
+// Volume of what bounds a zone together with the planes.  In two dimensions per height: a prism without ends
+scalar zoneGeometry::boundedVolume(label zone) const
 {
     const triSurface& s = boundary_[zone];
-    const scalar tolerance = 1e-5 * dx_;
-    const vector along = vector::UnitZ().cross(plane.normal);
-    scalar area = 0;
-    for (const auto& [a, b] : openHalfEdges(s))
+    List<halfSpace> planes = planes_;
+    scalar height = 1;
+    if (nDims_ == 2)
     {
-        const vector &p = s.nodes[a], &q = s.nodes[b];
-        if (std::abs(plane.distance(p)) <= tolerance && std::abs(plane.distance(q)) <= tolerance)
-            area -= (q[2] - p[2]) * along.dot(p);
+        const vector top = s.empty() ? vector(0, 0, dx_) : s.bounds().max;
+        planes.push_back({top, vector::UnitZ()}), planes.push_back({-top, -vector::UnitZ()});
+        height = 2 * top[2];
     }
-    for (const halfSpace& other : planes_)
-    {
-        const scalar slope = along.dot(other.normal);
-        if (std::abs(slope) < 1e-9) continue;
-        const vector corner = plane.point - other.distance(plane.point) / slope * along;
-        vector inside = corner - 1e-3 * dx_ * (plane.normal + other.normal);
-        inside[2] = bounds_.centre()[2];
-        if (zoneAt(inside) == zone) area += (slope > 0 ? 1 : -1) * height * along.dot(corner);
-    }
-    return area;
+    return openVolume(s, planes, 1e-5 * dx_, [&](const vector& x) { return zoneAt(x) == zone; }) /
+           height;
 }
 
 void zoneGeometry::setVolumes()
 {
     for (size_t z = 0; z < zones_.size(); ++z)
     {
-        const triSurface& s = boundary_[z];
+        const scalar bounded = boundedVolume(label(z));
         if (nDims_ == 2)
         {
-            // divergence theorem in the plane, over a prism of known height that is open at the planes
-            const boundBox box = s.empty() ? bounds_ : s.bounds();
-            scalar sum = 0;
-            for (label t = 0; t < s.size(); ++t)
-                sum += s.areaVector(t).dot(s.corner(t, 0) - box.centre());
-            const scalar height = s.empty() ? dx_ : box.max[2] - box.min[2];
-            for (const halfSpace& plane : planes_)
-                sum -= openingIn(plane, label(z), height) * plane.distance(box.centre());
-            volume_.push_back(sum / (2 * height));
+            volume_.push_back(bounded);
             continue;
         }
         scalar true_ = 0, meshed = 0, cut = 0;
-        bool whole = true;
         for (const body& b : bodies_)
             if (b.zone == label(z))
             {
@@ -342,15 +324,8 @@ void zoneGeometry::setVolumes()
                 true_ += b.volume > 0 ? b.volume : v, meshed += v;
                 cut += clippedVolume(b.surface, planes_);
             }
-        triSurface closed = s;
-        for (const halfSpace& plane : planes_)
-        {
-            closed.append(lids(closed, plane, 1e-5 * dx_));
-            closed.weld(1e-6 * dx_);
-        }
         // facets lie inside a convex surface: scaled to the volume known from CAD
-        const scalar bounded = closed.volume();
-        whole = s.empty() || std::abs(bounded - cut) < 1e-3 * cut;
+        const bool whole = boundary_[z].empty() || std::abs(bounded - cut) < 1e-3 * cut;
         volume_.push_back(whole ? cut * true_ / meshed : bounded);
     }
 }

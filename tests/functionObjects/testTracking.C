@@ -129,11 +129,14 @@ TEST_CASE("inflation at constant wall volume: rho = sqrt(r^2 + c)")
     CHECK(d[4] / d[3] < 1.005);
 }
 
-TEST_CASE("a tube with two open ends: each is closed by a cap in its plane")
+TEST_CASE("a tube with two open ends: caps or symmetry planes close it")
 {
-    // whole; half of its length, or of its section, cut by a symmetry plane
-    for (const word plane : {"", "symZ { type symmetryPlane; point (0 0 0); normal (0 0 -1); }",
-                             "symY { type symmetryPlane; point (0 0 0); normal (0 -1 0); }"})
+    // whole; half of its length, or of its section, cut by a symmetry plane; half of it between planes that face each other
+    const word symZ = "symZ { type symmetryPlane; point (0 0 0); normal (0 0 -1); }",
+               symY = "symY { type symmetryPlane; point (0 0 0); normal (0 -1 0); }";
+    for (const word& plane :
+         {word(), symZ, symY,
+          symY + symZ + "far { type symmetryPlane; point (0 0 20e-3); normal (0 0 1); }"})
     {
         const bool half = plane.rfind("symY", 0) == 0;
         const scalar sweep = half ? M_PI : 2 * M_PI;

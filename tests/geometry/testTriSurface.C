@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "halfSpace.H"
+#include "openVolume.H"
 #include "relative.H"
 #include "surfaceRefinement.H"
 #include "surfaceTopology.H"
@@ -147,6 +148,52 @@ TEST_CASE("volumes cut by planes are exact")
         CHECK(clippedVolume(ball, one) + clippedVolume(ball, two) ==
               doctest::Approx(clippedVolume(ball, others)).epsilon(1e-10));
     }
+}
+
+TEST_CASE("the volume between a surface and planes in which it is open, in any order of the planes")
+{
+    const auto plane = [](const vector& point, const vector& outward) {
+        return halfSpace{point, outward.normalized()};
+    };
+    List<halfSpace> planes = {plane({0, 0, 0}, {-1, 0, 0}), plane({0.2, 0.1, 0}, {0.3, -1, 0.1}),
+                              plane({0, 0, -0.4}, {0, 0, -1}), plane({0, 0, 0.3}, {0, 0.1, 1})};
+    std::sort(planes.begin(), planes.end(),
+              [](const auto& a, const auto& b) { return a.normal[0] < b.normal[0]; });
+    std::array<int, 4> order = {0, 1, 2, 3};
+    do {
+        // a shell that all four planes cut, and a box of which they leave no face but two
+        triSurface inner = sphere({0, 0.1, 0}, 0.6, 3), shell = sphere({0, 0, 0}, 1, 3);
+        const triSurface outer = shell, whole = box({-2, -2, -2}, {0.5, 0.5, 2});
+        inner.flip(), shell.append(inner);
+        const auto cutBy = [&](triSurface s) {
+            List<halfSpace> sorted;
+            for (const int k : order) sorted.push_back(planes[k]), s = clipped(s, planes[k]);
+            s.weld(1e-12);
+            return std::make_pair(s, sorted);
+        };
+        inner.flip();
+        const auto [s, sorted] = cutBy(shell);
+        CHECK(openVolume(s, sorted, 1e-9, [&](const vector& x) {
+                  const scalar r = (x - vector(0, 0.1, 0)).norm();
+                  return r > 0.6 && x.norm() < 1;
+              }) == doctest::Approx(clippedVolume(outer, sorted) - clippedVolume(inner, sorted)));
+        const auto [b, others] = cutBy(whole);
+        CHECK(openVolume(b, others, 1e-9, [&](const vector& x) {
+                  return x[0] < 0.5 && x[1] < 0.5;
+              }) == doctest::Approx(clippedVolume(whole, others)));
+    } while (std::next_permutation(order.begin(), order.end()));
+    // nothing but planes, and a hole in them that meets none
+    List<halfSpace> cube;
+    for (int a = 0; a < 3; ++a)
+        for (const int sign : {-1, 1})
+            cube.push_back(
+                plane(2 * sign * vector(vector::Unit(a)), sign * vector(vector::Unit(a))));
+    const auto all = [](const vector& x) { return x.cwiseAbs().maxCoeff() < 2; };
+    CHECK(openVolume({}, cube, 1e-9, all) == doctest::Approx(64));
+    triSurface hole = sphere({0, 0, 0}, 1, 2);
+    const scalar ball = hole.volume();
+    hole.flip();
+    CHECK(openVolume(hole, cube, 1e-9, all) == doctest::Approx(64 - ball));
 }
 
 TEST_CASE("a half model's cut face is dropped and its images complete it")

@@ -204,8 +204,18 @@ void trackedSurface::findOrigin(const boundary& walls)
     origin_ = vector::Zero();
     for (const rim& r : rims_) origin_ += r.apex / scalar(rims_.size());
     // onto all planes; for orthogonal planes one sweep is enough
+    const List<plane> planes = walls.symmetryPlanes();
     for (int sweep = 0; sweep < 20; ++sweep)
-        for (const plane& p : walls.symmetryPlanes()) project(origin_, p);
+        for (const plane& p : planes) project(origin_, p);
+    if (height_ > 0) along_(2, 2) = 0;
+    for (const plane& p : planes)
+        for (const plane& q : planes)
+        {
+            const vector n = along_ * p.second;
+            if ((p.second + q.second).norm() < 1e-9 && n.norm() > 1e-6)
+                along_ -= n * n.transpose() / n.squaredNorm();
+        }
+    if (along_.trace() < 0.5) notClosed_ = "symmetry planes face each other in all directions";
 }
 
 void trackedSurface::update(const List<vec4>& x)
@@ -237,7 +247,7 @@ scalar trackedSurface::volumeBelow(const triSurface& s) const
 {
     scalar volume = 0;
     const auto add = [&](const vector& a, const vector& b, const vector& c) {
-        volume += 0.5 * (a - origin_).dot((b - a).cross(c - a));
+        volume += 0.5 * (along_ * (a - origin_)).dot((b - a).cross(c - a));
     };
     for (label t = 0; t < s.size(); ++t) add(s.corner(t, 0), s.corner(t, 1), s.corner(t, 2));
     for (const rim& r : rims_)
@@ -247,7 +257,8 @@ scalar trackedSurface::volumeBelow(const triSurface& s) const
             add(s.nodes[b], rest_.nodes[a], rest_.nodes[b]);
             add(r.apex, rest_.nodes[b], rest_.nodes[a]);
         }
-    return sign_ * volume * factor_ / (height_ > 0 ? 2 * height_ : 3);
+    const scalar directions = std::max<scalar>(1, std::round(along_.trace()));
+    return sign_ * volume * factor_ / (directions * (height_ > 0 ? height_ : 1));
 }
 
 }  // namespace ispf
