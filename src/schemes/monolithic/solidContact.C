@@ -29,6 +29,22 @@ solidContact::solidContact(const fsiCase& c)
 {
     if (std::all_of(bodyOf_.begin(), bodyOf_.end(), [](label first) { return first == 0; }))
         bodyOf_ = {};
+    const referenceNeighbours& atRest = c.structure->gradient().neighbours();
+    for (label i = 0; i < atRest.n(); ++i)
+        forNeighbours<among::others>(atRest, i, [&](pairIndex p, label j) {
+            joinedImages_.insert({bodyOf(i), bodyOf(j), atRest.image[p]});
+        });
+}
+
+// True if the body of i goes on in the image of that of j, with which it is one at rest
+bool solidContact::joined(label i, label j, const isometry& image) const
+{
+    const List<isometry>& images = c_.structure->reference().images;
+    const scalar tiny = 1e-6 * c_.cloud.dx;
+    for (size_t m = 0; m < images.size(); ++m)
+        if ((images[m].R - image.R).norm() < 1e-6 && (images[m].t - image.t).norm() < tiny)
+            return joinedImages_.count({bodyOf(i), bodyOf(j), label(m) + 1}) > 0;
+    return false;
 }
 
 void solidContact::find()
@@ -43,9 +59,8 @@ void solidContact::find()
 }
 
 // 0 for neighbours within a body.  Particles that are nearer at rest than r_ij do not repel each other there
-scalar solidContact::reachOf(label i, label j, scalar atRest) const
+scalar solidContact::reachOf(bool one, scalar atRest) const
 {
-    const bool one = bodyOf_.empty() || bodyOf_[i] == bodyOf_[j];
     return one && atRest < ownBody * c_.cloud.dx ? 0 : std::min(pairReach * c_.cloud.dx, atRest);
 }
 
@@ -65,7 +80,8 @@ void solidContact::findPairs(label i)
         isometry image;
         if (g != j)
             image.R = cloud.ruleOf(g).R, image.t = cloud.x[g].xyz() - image.R * cloud.x[j].xyz();
-        const scalar reach = reachOf(i, j, (rest[i] - image(rest[j])).norm());
+        const bool one = g == j ? bodyOf(i) == bodyOf(j) : joined(i, j, image);
+        const scalar reach = reachOf(one, (rest[i] - image(rest[j])).norm());
         if (reach == 0) return;
         pairs_.push_back({i, j, image, reach, 0.5 * std::min(stiffnessOf(i), stiffnessOf(j))});
     });

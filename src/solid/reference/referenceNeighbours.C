@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "referenceNeighbours.H"
+#include "disjointSets.H"
 #include "forPairs.H"
 #include "messages.H"
 
 #include <algorithm>
+#include <numeric>
+#include <set>
+#include <tuple>
 
 namespace ispf
 {
@@ -17,6 +21,9 @@ struct candidate
     std::int32_t index;
     std::uint16_t image;
 };
+
+// [dx] nearer particles are of one body.  Between lattice layers half a spacing of room divides two bodies
+constexpr scalar touching = 1.4;
 
 // Every particle, and every image within `radius` of the particles' bounding box
 struct candidateGrid
@@ -107,6 +114,58 @@ List<rowEntry> findRow(const structureReference& ref, const candidateGrid& grid,
     return row;
 }
 
+// Number of the map that is a after b, -1: it is not in the list.  0 is the map that moves nothing
+label composed(const structureReference& ref, label a, label b)
+{
+    const isometry none, &A = a ? ref.images[a - 1] : none, &B = b ? ref.images[b - 1] : none;
+    const tensor R = A.R * B.R;
+    const vector t = A.R * B.t + A.t;
+    for (label m = 0; m <= label(ref.images.size()); ++m)
+    {
+        const isometry& M = m ? ref.images[m - 1] : none;
+        if ((M.R - R).norm() < 1e-6 && (M.t - t).norm() < 1e-6 * ref.dx) return m;
+    }
+    return -1;
+}
+
+// Leaves out pairs of bodies, and of images of bodies, that do not touch, be it by way of others: what is between them is no
+// solid
+void divideBodies(const structureReference& ref, List<List<rowEntry>>& rows)
+{
+    const auto touch = [&](label i, const rowEntry& e) {
+        const vector& x = ref.x0[e.second];
+        return (ref.x0[i] - (e.first ? ref.images[e.first - 1](x) : x)).norm() < touching * ref.dx;
+    };
+    List<label> body(ref.n());
+    std::iota(body.begin(), body.end(), 0);
+    for (label i = 0; i < ref.n(); ++i)
+        for (const rowEntry& e : rows[i])
+            if (e.first == 0 && touch(i, e)) join(body, i, label(e.second));
+    label nBodies =
+        0;  // bodies by number: a set leads to lower particles, its first leads to itself
+    for (label i = 0; i < ref.n(); ++i) body[i] = body[i] == i ? nBodies++ : body[body[i]];
+
+    std::set<std::tuple<label, label, label>> links;
+    for (label i = 0; i < ref.n(); ++i)
+        for (const rowEntry& e : rows[i])
+            if (e.first && touch(i, e)) links.insert({body[i], body[e.second], e.first});
+    const label nMaps = label(ref.images.size()) + 1;
+    List<label> sets(nBodies * nMaps);  // of body b in image m: m nBodies + b
+    std::iota(sets.begin(), sets.end(), 0);
+    for (const auto& [b, other, image] : links)
+        for (label m = 0; m < nMaps; ++m)
+            if (const label to = composed(ref, m, image); to >= 0)
+                join(sets, m * nBodies + b, to * nBodies + other);
+    for (label s = 0; s < label(sets.size()); ++s) sets[s] = representative(sets, s);
+    for (label i = 0; i < ref.n(); ++i)
+        rows[i].erase(std::remove_if(rows[i].begin(), rows[i].end(),
+                                     [&](const rowEntry& e) {
+                                         return sets[body[i]] !=
+                                                sets[e.first * nBodies + body[e.second]];
+                                     }),
+                      rows[i].end());
+}
+
 }  // namespace
 
 referenceNeighbours::referenceNeighbours(const structureReference& ref, scalar radius)
@@ -116,6 +175,7 @@ referenceNeighbours::referenceNeighbours(const structureReference& ref, scalar r
     parallelFor(ref.n(), [&](label begin, label end) {
         for (label i = begin; i < end; ++i) rows[i] = findRow(ref, grid, i, radius);
     });
+    divideBodies(ref, rows);
     start.push_back(0);
     for (const List<rowEntry>& row : rows)
     {

@@ -169,6 +169,29 @@ TEST_CASE("two blocks are pressed together, rest on a layer of fluid, and part a
     CHECK(apart(c.cloud) > 3);
 }
 
+TEST_CASE("blocks that begin a spacing apart are two bodies: they part")
+{
+    const blocks scene("contactNear", {{8, 4}, {15, 4}}, "block0 (-4 0 0); block1 (4 0 0);");
+    capturedLog log;
+    Time time(scene.files.path());
+    fsiCase c(time);
+    const auto scheme = couplingScheme::New(c);
+    runSteps(c, *scheme, dt, 300);
+    CHECK(apart(c.cloud) > 4);
+}
+
+TEST_CASE(
+    "a block that begins a spacing from a symmetry plane meets its image there as one from afar")
+{
+    const blocks scene("contactImage", {{1, 5}}, "block0 (-8 0 0);", "type symmetryPlane;");
+    capturedLog log;
+    Time time(scene.files.path());
+    fsiCase c(time);
+    const auto scheme = couplingScheme::New(c);
+    runSteps(c, *scheme, dt, 300);
+    CHECK(lowest(c.cloud, 0) > 0.75);
+}
+
 TEST_CASE("a block falls to a wall, and one to its image beyond a symmetry plane")
 {
     const blocks scene("contactWall", {{12, 5}}, "block0 (-8 -16 0);", "type symmetryPlane;");
