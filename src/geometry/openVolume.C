@@ -40,7 +40,7 @@ private:
         return std::abs(k.distance(x)) <= tolerance_;
     }
 
-    // Of the opening in plane k, whose rim runs against the surface's open edges
+    // Area of the opening in plane k.  Its rim runs against the surface's open edges
     scalar area(const halfSpace& k) const
     {
         scalar sum = 0;
@@ -63,7 +63,7 @@ private:
         return sum / 2;
     }
 
-    // Of the rim on the line of k and m, along t
+    // Length of the rim along t, the direction of the line in which k meets m
     scalar length(const halfSpace& k, const halfSpace& m, const vector& t,
                   const std::map<label, int>& surplus) const
     {

@@ -6,6 +6,7 @@
 #include "surfaceTopology.H"
 #include "testShapes.H"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <filesystem>
 #include <fstream>
@@ -155,10 +156,9 @@ TEST_CASE("the volume between a surface and planes in which it is open, in any o
     const auto plane = [](const vector& point, const vector& outward) {
         return halfSpace{point, outward.normalized()};
     };
-    List<halfSpace> planes = {plane({0, 0, 0}, {-1, 0, 0}), plane({0.2, 0.1, 0}, {0.3, -1, 0.1}),
-                              plane({0, 0, -0.4}, {0, 0, -1}), plane({0, 0, 0.3}, {0, 0.1, 1})};
-    std::sort(planes.begin(), planes.end(),
-              [](const auto& a, const auto& b) { return a.normal[0] < b.normal[0]; });
+    const List<halfSpace> planes = {
+        plane({0, 0, 0}, {-1, 0, 0}), plane({0.2, 0.1, 0}, {0.3, -1, 0.1}),
+        plane({0, 0, -0.4}, {0, 0, -1}), plane({0, 0, 0.3}, {0, 0.1, 1})};
     std::array<int, 4> order = {0, 1, 2, 3};
     do {
         // a shell that all four planes cut, and a box of which they leave no face but two

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Usage: contrast.sh ["Gi Go" ...].  A ring of two materials, 5 layers each, whose moduli Gi and Go differ by up to 1000, is
-# inflated, (7.23), (7.24): the pressure inside is that of the incompressible ring in plane strain within 3 %.  Prints the pressures
+# inflated, (7.23), (7.24): the pressure inside is that of the incompressible ring in plane strain within 3 %.  Prints the pressures.
+# ENTRIES: further entries of totalLagrangian
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
-mkdir "$scratch/ring" && cd "$scratch/ring" && mkdir system constant || exit 1
-: > system/sphSchemes; : > system/sphSolution
+bareCase ring
 echo "rho 1000; mu 1e-3;" > constant/physicalProperties
 cat > constant/boundary <<'BOUNDARY'
 left { type symmetryPlane; point (0 0 0); normal (-1 0 0); } below { type symmetryPlane; point (0 0 0); normal (0 -1 0); }
@@ -30,7 +30,7 @@ place
 [ $# -gt 0 ] || set -- "3e6 3e6" "3e4 3e6" "3e6 3e4" "3e3 3e6" "3e6 3e3"
 for moduli; do
     read -r inner outer <<< "$moduli"
-    echo "structureModel totalLagrangian; materials { inner { type neoHookean; G $inner; } outer { type neoHookean; G $outer; } }" \
+    echo "structureModel totalLagrangian; ${ENTRIES:-} materials { inner { type neoHookean; G $inner; } outer { type neoHookean; G $outer; } }" \
         > constant/structureProperties
     rm -rf postProcessing; solved
     # the pressure is the integral of (l^2 - l^-2) G dr/r over the wall, l = r/R, r^2 - R^2 = K

@@ -4,8 +4,7 @@
 # its shear modulus G no particle goes 0.2 dx, and the enclosed area keeps its size within 0.2 %.  Prints both
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
-mkdir "$scratch/ring" && cd "$scratch/ring" && mkdir system constant || exit 1
-: > system/sphSchemes; : > system/sphSolution
+bareCase ring
 echo "rho 1000; mu 1e-3;" > constant/physicalProperties
 cat > system/particleDict <<'PARTICLES'
 dx 5e-4; nDims 2;

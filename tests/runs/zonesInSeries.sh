@@ -4,9 +4,8 @@
 # the face.  The pressure in the channel is Poiseuille's as with one zone, and as many particles cross the faces.  Prints both
 set -uo pipefail
 . "$(dirname "$0")/../cases/functions"
-mkdir "$scratch/channel" && cd "$scratch/channel" && mkdir system constant || exit 1
+bareCase channel
 echo "coupling monolithic;" > system/sphSolution
-: > system/sphSchemes
 echo "rho 1000; mu 4e-3;" > constant/physicalProperties
 echo "walls { type wall; } in { type open; velocity 0.02; profile parabolic; } out { type open; p 0; }" > constant/boundary
 echo "startTime 0; endTime 6; deltaT 0.01; writeControl none;

@@ -128,8 +128,8 @@ label composed(const structureReference& ref, label a, label b)
     return -1;
 }
 
-// Leaves out pairs of bodies, and of images of bodies, that do not touch, be it by way of others: what is between them is no
-// solid
+// Leaves out the pairs of two bodies, or of a body and an image, that no chain of touching particles joins: there is no solid
+// between them
 void divideBodies(const structureReference& ref, List<List<rowEntry>>& rows)
 {
     const auto touch = [&](label i, const rowEntry& e) {
@@ -141,8 +141,8 @@ void divideBodies(const structureReference& ref, List<List<rowEntry>>& rows)
     for (label i = 0; i < ref.n(); ++i)
         for (const rowEntry& e : rows[i])
             if (e.first == 0 && touch(i, e)) join(body, i, label(e.second));
-    label nBodies =
-        0;  // bodies by number: a set leads to lower particles, its first leads to itself
+    // Numbers the bodies: each particle leads to a lower one of its body, the first to itself
+    label nBodies = 0;
     for (label i = 0; i < ref.n(); ++i) body[i] = body[i] == i ? nBodies++ : body[body[i]];
 
     std::set<std::tuple<label, label, label>> links;
