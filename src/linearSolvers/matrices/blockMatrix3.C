@@ -51,30 +51,48 @@ List<label> blockMatrix3::connectedSets() const
     return parent;
 }
 
-blockMatrix3 blockMatrix3::with(List<entry> entries) const
+blockMatrix3 blockMatrix3::ofEntries(label n, List<entry> entries)
 {
     std::stable_sort(entries.begin(), entries.end(), [](const entry& a, const entry& b) {
         return std::tie(a.row, a.column) < std::tie(b.row, b.column);
     });
+    blockMatrix3 A;
+    A.rowStart.assign(n + 1, 0), A.diagonal.assign(n, tensor::Zero());
+    label row = -1, column = -1;  // of the last block
+    for (const entry& e : entries)
+    {
+        if (e.row == e.column) A.diagonal[e.row] += e.value;
+        else if (e.row == row && e.column == column) A.value.back() += e.value;
+        else
+        {
+            A.column.push_back(std::int32_t(e.column)), A.value.push_back(e.value);
+            ++A.rowStart[e.row + 1], row = e.row, column = e.column;
+        }
+    }
+    std::partial_sum(A.rowStart.begin(), A.rowStart.end(), A.rowStart.begin());
+    return A;
+}
+
+// Columns ascend in every row
+blockMatrix3 blockMatrix3::plus(const blockMatrix3& A) const
+{
     blockMatrix3 sum;
-    sum.diagonal = diagonal, sum.rowStart = {0};
-    const auto add = [&](std::int32_t to, const tensor& block) {
-        const bool same = label(sum.column.size()) > sum.rowStart.back() && sum.column.back() == to;
-        if (same) sum.value.back() += block;
-        else sum.column.push_back(to), sum.value.push_back(block);
-    };
-    auto next = entries.begin();
+    sum.rowStart = {0}, sum.diagonal = diagonal;
+    sum.column.reserve(column.size()), sum.value.reserve(value.size());
     for (label i = 0; i < size(); ++i)
     {
-        label k = rowStart[i];
-        while (k < rowStart[i + 1] || (next != entries.end() && next->row == i))
+        label k = rowStart[i], m = A.rowStart[i];
+        const label end = rowStart[i + 1], endOfA = A.rowStart[i + 1];
+        while (k < end || m < endOfA)
         {
-            const bool own = next == entries.end() || next->row != i ||
-                             (k < rowStart[i + 1] && column[k] <= next->column);
-            if (own) add(column[k], value[k]), ++k;
-            else if (next->column == i) sum.diagonal[i] += next->value, ++next;
-            else add(std::int32_t(next->column), next->value), ++next;
+            const bool own = k < end && (m == endOfA || column[k] <= A.column[m]);
+            const bool other = m < endOfA && (k == end || A.column[m] <= column[k]);
+            sum.column.push_back(own ? column[k] : A.column[m]);
+            sum.value.push_back(own ? value[k] : A.value[m]);
+            if (own && other) sum.value.back() += A.value[m];
+            k += own, m += other;
         }
+        sum.diagonal[i] += A.diagonal[i];
         sum.rowStart.push_back(label(sum.column.size()));
     }
     return sum;

@@ -8,15 +8,6 @@
 namespace ispf
 {
 
-namespace
-{
-
-// A uniform pressure is balanced if its force on the solid is below this share of the wetted area.  The rest is
-// the difference of two surface sums
-constexpr scalar balanced = 0.3;
-
-}  // namespace
-
 namespace entries
 {
 
@@ -25,7 +16,7 @@ const stateEntry<List<scalar>> divergenceDefect{"divergenceDefect"};
 
 }  // namespace entries
 
-void enclosedFluid::setup(const solidGradient& gradientOf, const solidSurface* surface)
+void enclosedFluid::setup(const solidSurface* surface)
 {
     surface_ = surface;
     const particleCloud& cloud = c_.cloud;
@@ -59,21 +50,8 @@ void enclosedFluid::setup(const solidGradient& gradientOf, const solidSurface* s
         b.free = area == 0, wetted += area;
         if (b.free) refusePush(c_, swept, b.zones);
     }
-    allFree_ = wetted > 0 && loadsItself(gradientOf, wetted);
-}
-
-// True if a uniform pressure in all particles exerts no force on the solid.  Then nothing determines its level
-bool enclosedFluid::loadsItself(const solidGradient& gradientOf, scalar area) const
-{
-    const particleCloud& cloud = c_.cloud;
-    if (*std::max_element(cloud.pFixed.begin(), cloud.pFixed.end())) return false;
-    const List<vec4> unit(cloud.nAll(), vec4{simd4{0, 0, 0, 1}});
-    List<vec4> left(cloud.nSolid());
-    gradientOf(unit, left);
-    const scalar force = sumOf(0, cloud.nSolid(), [&](label i) {
-        return cloud.uFixed[i] ? 0 : cloud.volume() * left[i].xyz().norm();
-    });
-    return force < balanced * area;
+    const bool given = *std::max_element(cloud.pFixed.begin(), cloud.pFixed.end());
+    allFree_ = wetted > 0 && !given && surface_->wetAndOpen()[1] == 0;
 }
 
 bool enclosedFluid::inactive() const

@@ -42,8 +42,7 @@ void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solid
                 scalar(cloud.n() - cloud.nSolid());
     rows_.setTau(stabiliserTau(stiffness), fluidTau_, c_.solidModuli());
     outlets_.setup(cloud, c_.walls->outletLinks(), dt / (c_.rho * cloud.dx));
-    enclosed_.setup([this](const List<vec4>& phi, List<vec4>& gp) { rows_.solidGradient(phi, gp); },
-                    surface);
+    enclosed_.setup(surface);
 }
 
 // V/A_ii without the viscosity of the solid: at rest it has no stress, and the error that the stabiliser makes there must not

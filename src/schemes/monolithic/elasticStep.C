@@ -39,7 +39,7 @@ label elasticStep::mostPasses() const
 void elasticStep::begin(List<vec4> x0, scalar tau, const List<scalar>& p)
 {
     x0_ = std::move(x0), tau_ = tau, pass_ = 0, first_ = last_ = 0;
-    outside_.clear(), resists_.clear(), contact_ = nullptr;
+    outside_.clear(), resists_ = nullptr, contact_ = nullptr;
     structure_->force(x0_, force_);
     structure_->assembleTangent(x0_, tangentKind::positive, p, K_);
     stiffness_.resize(structure_->n());
@@ -71,7 +71,7 @@ scalar elasticStep::dissipated(const List<vec4>& u) const
                          [&](label i) -> scalar { return u[i].xyz().dot(Du[i].xyz()); });
 }
 
-void elasticStep::addOutside(const List<vec4>& f, const List<scalar>& D)
+void elasticStep::addOutside(const List<vec4>& f, const blockMatrix3* D)
 {
     outside_ = f, resists_ = D;
     forEach(0, structure_->n(), [&](label i) { force_[i].s += outside_[i].s; });
@@ -81,22 +81,21 @@ void elasticStep::addOutside(const List<vec4>& f, const List<scalar>& D)
 
 void elasticStep::includeOutside()
 {
-    if (outside_.empty()) return;
-    forEach(0, structure_->n(), [&](label i) {
-        for (int a = 0; a < structure_->reference().nDims; ++a)
-            K_.diagonal[i](a, a) += resists_[i] / tau_;
-    });
+    if (!resists_) return;
+    blockMatrix3 D = resists_->withZeros();
+    D.addScaled(1 / tau_, *resists_);
+    withOutside_ = K_.plus(D);
 }
 
 void elasticStep::addContact(const solidContact& contact, const List<vec4>& u)
 {
     contact_ = &contact;
     move(u);
-    contact.addTangent(x_, K_, withContact_);
+    contact.addTangent(x_, withoutContact(), withContact_);
     f_.assign(x_.size(), vec4{});
     contact.addForce(x_, f_);
     List<vec4> Ku(x_.size());
-    withContact_.apply(u_, Ku_), K_.apply(u_, Ku);
+    withContact_.apply(u_, Ku_), withoutContact().apply(u_, Ku);
     forEach(0, structure_->n(),
             [&](label i) { force_[i].s += f_[i].s + tau_ * (Ku_[i].s - Ku[i].s); });
 }
@@ -121,13 +120,17 @@ void elasticStep::iterate(const List<scalar>& z)
         structure_->force(x_, f_);
         R_.apply(u_, Ru);
         forEach(0, n, [&](label i) { f_[i].s -= tau_ * Ru[i].s; });
-        if (!outside_.empty())
-            forEach(0, n, [&](label i) { f_[i].s += outside_[i].s - resists_[i] * u_[i].s; });
+        if (!outside_.empty()) forEach(0, n, [&](label i) { f_[i].s += outside_[i].s; });
+        if (resists_)
+        {
+            resists_->apply(u_, Ru);
+            forEach(0, n, [&](label i) { f_[i].s -= Ru[i].s; });
+        }
     }
     else
     {
         f_ = start_;
-        K_.apply(u_, Ru);
+        withoutContact().apply(u_, Ru);
         forEach(0, n, [&](label i) { f_[i].s -= tau_ * Ru[i].s; });
     }
     if (contact_) contact_->addForce(x_, f_);
@@ -142,7 +145,7 @@ void elasticStep::setTangent()
         K_.addScaled(1, R_);
         includeOutside();
     }
-    if (contact_) contact_->addTangent(x_, K_, withContact_);
+    if (contact_) contact_->addTangent(x_, withoutContact(), withContact_);
 }
 
 // Root of the mean square of d/A over the free solid

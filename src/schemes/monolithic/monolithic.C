@@ -182,7 +182,7 @@ void monolithic::structureState()
     surface_.initialise(c_.cloud, c_.list, F_, images);
     volume_->setup(F_);
     surface_.setup(c_.cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
-    outside_->find(surface_);
+    outside_->find(c_, surface_);
     if (gaps_) gaps_->close(c_, surface_);
 }
 

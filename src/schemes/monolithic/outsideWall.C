@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "outsideWall.H"
+#include "surfaceMass.H"
 
 namespace ispf
 {
@@ -22,7 +23,7 @@ outsideWall::outsideWall(const dictionary& structureProperties, const word& case
                                  "damping, or leave it away");
 }
 
-void outsideWall::find(const solidSurface& surface)
+void outsideWall::find(const fsiCase& c, const solidSurface& surface)
 {
     const std::array<scalar, 2> areas = surface.wetAndOpen();
     wet_ = areas[0], open_ = areas[1];
@@ -30,6 +31,7 @@ void outsideWall::find(const solidSurface& surface)
         dict_.fail(dict_.keys().front(),
                    "It acts where neither fluid nor wall is before the solid, and there is no such "
                    "place here. Leave it away");
+    if (tissue()) mass_ = surfaceMass(surface, *c.structure, c.cloud.uFixed);
 }
 
 solidSurface::pressureAt outsideWall::pressureAt(scalar t, const hydrostaticPart& hydrostatic) const
@@ -48,24 +50,31 @@ void outsideWall::setStep(const fsiCase& c, const solidSurface& surface,
     List<tensor> P;
     surface.outsideLoads(pressureAt(s.pressures, hydrostatic), Q, P);
     c.structure->gradient().forces(P, force_);
-    const List<vec4>& rest = cloud.vectors.at("x0");
-    resists_.assign(cloud.nSolid(), 0);
-    forEach(0, cloud.nSolid(), [&](label i) {
-        const scalar area = surface.outsideArea(i);
-        force_[i].s -= Q[i].s + area * stiffness_ * (s.x[i].s - rest[i].s);
-        if (cloud.uFixed[i]) force_[i] = vec4{};
+    const label n = cloud.nSolid();
+    List<vec4> way(tissue() ? n : 0), pull(n);
+    if (tissue())
+    {
+        const List<vec4>& rest = cloud.vectors.at("x0");
+        forEach(0, n, [&](label i) { way[i].s = s.x[i].s - rest[i].s; });
+        mass_.apply(way, pull);
         // the spring's force at the end of the step is that at its start less tau times its stiffness times u
-        else resists_[i] = area * (damping_ + s.tau * stiffness_);
+        resists_ = mass_.withZeros();
+        resists_.addScaled(damping_ + s.tau * stiffness_, mass_);
+    }
+    forEach(0, n, [&](label i) {
+        force_[i].s -= Q[i].s + stiffness_ * pull[i].s;
+        if (cloud.uFixed[i]) force_[i] = vec4{};
         force_[i][3] = 0;
     });
 }
 
 scalar outsideWall::work(const particleCloud& cloud, scalar tau) const
 {
+    List<vec4> held(cloud.nSolid());
+    if (tissue()) resists_.apply(cloud.Up, held);
     return tau * sumOf(0, cloud.nSolid(), [&](label i) -> scalar {
                if (!cloud.isFree(i)) return 0;
-               const vector u = cloud.Up[i].xyz();
-               return u.dot(force_[i].xyz()) - resists_[i] * u.squaredNorm();
+               return cloud.Up[i].xyz().dot(force_[i].xyz() - held[i].xyz());
            });
 }
 

@@ -145,7 +145,7 @@ void restSearch::lookAtShape()
     volume_->setup(F);
     surface_.initialise(cloud, c_.list, F, images);
     surface_.setup(cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
-    outside_.find(surface_);
+    outside_.find(c_, surface_);
 }
 
 // Sets the forces and the tangent at the first shape

@@ -141,7 +141,7 @@ void solidContact::addTangent(const List<vec4>& x, const blockMatrix3& A, blockM
     }
     for (const wallMeeting& w : walls_)
         diagonal[w.i] += slope(w.stiffness, over(w.reach, w.distance(x)), w.normal);
-    sum = A.with(std::move(entries));
+    sum = A.plus(blockMatrix3::ofEntries(A.size(), std::move(entries)));
     for (label i = 0; i < A.size(); ++i) sum.diagonal[i] += diagonal[i] - A.diagonal[i];
 }
 

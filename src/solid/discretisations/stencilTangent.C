@@ -19,8 +19,7 @@ stencilTangent::stencilTangent(const structureReference& ref, const referenceGra
       ownWeight_(size_t(ref.n()), 0)
 {
     forPairs<among::all>(pairs_, 0, ref_.n(), [&](label k, pairIndex p, label) {
-        slope_[p] =
-            -fit_.weight(p) * (fit_.inverseMoment(k) * pairs_.separation(ref_, k, p));  // (5.18)
+        slope_[p] = fit_.slope(k, p);
         own_[k] -= slope_[p], ownWeight_[k] += fit_.weight(p);
     });
     makePattern();

@@ -306,14 +306,6 @@ scalar solidSurface::meanPressure(const List<vec4>& up, const pressureAt& at) co
     return area > 0 ? load / area : 0;
 }
 
-scalar solidSurface::outsideArea(label k) const
-{
-    scalar sum = 0;
-    for (const int s : {0, 1})
-        if (part_[s][k].outside) sum += areaAtRest(s, k).norm();
-    return sum;
-}
-
 std::array<scalar, 2> solidSurface::wetAndOpen() const
 {
     return sumsOf(0, cloud_->nSolid(), [&](label i) {
