@@ -389,6 +389,19 @@ done
 head -c $(($(stat -c %s constant/whole.msh) * 8 / 10)) constant/whole.msh > constant/cut.msh
 dict 'file "constant/cut.msh"; unit mm; group ice;'
 refused "mesh file without its end" "cut.msh is cut off"
+# A ball touches all six faces of its box, a disc all four: what faces that touch without meeting enclose is not the zone's volume
+cp constant/boundary boundary.kept
+echo "walls { type wall; }" > constant/boundary
+touching() {
+    rm -rf 0; echo "dx 1e-3; $2 zones { water { phase fluid; shape box; $3 } ball { phase solid; $4 } }" > system/particleDict
+    generateParticles > out 2>&1 || fail "touching $1: $(tail -n 8 out)"
+    awk -v n="$5" '/^water / && $3 > 0.99*n && $3 < 1.01*n { found = 1 } END { exit !found }' out ||
+        fail "touching $1: $(grep '^water ' out), not $5"
+}
+touching balls "" "min (-6e-3 -6e-3 -6e-3); max (6e-3 6e-3 6e-3);" "shape sphere; centre (0 0 0); radius 6e-3;" 823.2
+grep -q "Zone water: its faces enclose .* touch there without meeting" out || fail "touching balls: no warning"
+touching discs "nDims 2;" "min (-15e-3 -15e-3 0); max (15e-3 15e-3 0);" "shape cylinder; point1 (0 0 0); point2 (0 0 1); radius 15e-3;" 193.1
+mv boundary.kept constant/boundary
 # A pipe into a pot with an open bottom: a strip beside the pipe would lie behind the pipe's wall
 cp constant/boundary boundary.kept
 echo 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 8, 4}; Cylinder(2) = {0, 0, 8, 0, 0, 6, 10};
