@@ -13,7 +13,7 @@ struct solidPairs
     const neighbourList& list;
     const List<scalar>&tau, &share;
 
-    // r_ij F_ij of (7.23), and 0 if one of the two has no equation for p: C has no such pair
+    // r_ij F_ij of (7.23), and 0 for pairs that C has not: the solid does not go on between them, or one has no equation for p
     scalar weight(pairIndex k) const
     {
         if (!(tau[k] > 0)) return 0;
@@ -82,7 +82,8 @@ void coupledRows::setup(particleCloud& cloud, const neighbourList& list, const k
     viscous_.setup({cloud, list, B});
 }
 
-void coupledRows::setTau(const List<scalar>& tau, scalar fluidTau, const List<scalar>& moduli)
+void coupledRows::setTau(const List<scalar>& tau, scalar fluidTau, const List<scalar>& moduli,
+                         const solidBodies* bodies)
 {
     fluidTau_ = fluidTau;
     const label nSolid = cloud_->nSolid();
@@ -92,7 +93,8 @@ void coupledRows::setTau(const List<scalar>& tau, scalar fluidTau, const List<sc
     forPairs<among::same>(*list_, 0, nSolid, [&](label i, pairIndex k, label j) {
         const label source = cloud_->ownerOf(j);
         const scalar a = tau[i], b = tau[source];
-        pairTau_[k] = acts(i) && acts(source) ? 2 * a * b / (a + b) : 0;
+        const bool counts = acts(i) && acts(source) && bodies->between(i, j).one;
+        pairTau_[k] = counts ? 2 * a * b / (a + b) : 0;
         if (moduli.empty()) return;
         const scalar G = moduli[i], H = moduli[source];
         pairShare_[k] = 4 * G * H / ((G + H) * (G + H));

@@ -14,6 +14,12 @@ scalar coupledSystem::meanOfFree(const Entry& entry, bool any) const
     return n > 0 ? sum / n : 0;
 }
 
+const solidBodies& coupledSystem::bodies()
+{
+    if (!bodies_) bodies_ = std::make_unique<solidBodies>(c_);
+    return *bodies_;
+}
+
 void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solidSurface* surface,
                           const blockMatrix3* K, const List<scalar>* stiffness,
                           const List<scalar>& chi)
@@ -40,7 +46,8 @@ void coupledSystem::setup(scalar dt, const volumeConstraint* volume, const solid
                           return cloud.volume() / (inertiaAlone - viscousFactor() * viscous[i]);
                       }) /
                 scalar(cloud.n() - cloud.nSolid());
-    rows_.setTau(stabiliserTau(stiffness), fluidTau_, c_.solidModuli());
+    rows_.setTau(stabiliserTau(stiffness), fluidTau_, c_.solidModuli(),
+                 volume ? &bodies() : nullptr);
     outlets_.setup(cloud, c_.walls->outletLinks(), dt / (c_.rho * cloud.dx));
     enclosed_.setup(surface);
 }

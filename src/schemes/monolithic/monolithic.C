@@ -91,7 +91,7 @@ public:
         {
             volume_ = std::make_unique<volumeConstraint>(*c.structure);
             gaps_ = closedGaps::New(c.structureProperties);
-            contact_ = std::make_unique<solidContact>(c);
+            contact_ = std::make_unique<solidContact>(c, system_.bodies());
             energy_.addElastic([this](const List<vec4>& x) { return contact_->energy(x); });
             outside_ = std::make_unique<outsideWall>(c.structureProperties, c.caseFolder());
         }

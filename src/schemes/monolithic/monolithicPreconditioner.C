@@ -68,6 +68,8 @@ private:
             const label j = cloud_.ownerOf(neighbour);
             if (j == i || !rows_.acts(i) || !rows_.acts(j)) return;
             const bool same = k < list_.mid[i];
+            // a pair at the end of the kernel would tie the levels of two bodies by next to nothing
+            if (same && !cloud_.isFluid(i) && !rows_.stabilises(k)) return;
             entry(j, -2 * list_.F[k] * (same ? free_ * mobility(i, j) : tauBeside(i, j)), same);
         });
     }

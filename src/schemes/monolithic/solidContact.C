@@ -13,9 +13,6 @@ namespace
 
 // [dx] r_ij of two particles, with a layer of fluid between them, and r_iw of a particle and a wall
 constexpr scalar pairReach = 2, wallReach = 1.5;
-// [dx] parts of one body that are nearer at rest are no strangers: their strain keeps them apart.  No lattice has this
-// distance, which rounding would decide
-constexpr scalar ownBody = 4.06;
 
 scalar over(scalar reach, scalar distance)
 {
@@ -23,29 +20,6 @@ scalar over(scalar reach, scalar distance)
 }
 
 }  // namespace
-
-solidContact::solidContact(const fsiCase& c)
-    : c_(c), bodyOf_(c.structure->tangentPattern().connectedSets())
-{
-    if (std::all_of(bodyOf_.begin(), bodyOf_.end(), [](label first) { return first == 0; }))
-        bodyOf_ = {};
-    const referenceNeighbours& atRest = c.structure->gradient().neighbours();
-    for (label i = 0; i < atRest.n(); ++i)
-        forNeighbours<among::others>(atRest, i, [&](pairIndex p, label j) {
-            joinedImages_.insert({bodyOf(i), bodyOf(j), atRest.image[p]});
-        });
-}
-
-// True if the body of i goes on in the image of that of j, with which it is one at rest
-bool solidContact::joined(label i, label j, const isometry& image) const
-{
-    const List<isometry>& images = c_.structure->reference().images;
-    const scalar tiny = 1e-6 * c_.cloud.dx;
-    for (size_t m = 0; m < images.size(); ++m)
-        if ((images[m].R - image.R).norm() < 1e-6 && (images[m].t - image.t).norm() < tiny)
-            return joinedImages_.count({bodyOf(i), bodyOf(j), label(m) + 1}) > 0;
-    return false;
-}
 
 void solidContact::find()
 {
@@ -58,12 +32,6 @@ void solidContact::find()
     }
 }
 
-// 0 for neighbours within a body.  Particles that are nearer at rest than r_ij do not repel each other there
-scalar solidContact::reachOf(bool one, scalar atRest) const
-{
-    return one && atRest < ownBody * c_.cloud.dx ? 0 : std::min(pairReach * c_.cloud.dx, atRest);
-}
-
 // k of (7.18): the shear modulus over the depth of the plane [N/m]
 scalar solidContact::stiffnessOf(label i) const
 {
@@ -73,16 +41,12 @@ scalar solidContact::stiffnessOf(label i) const
 void solidContact::findPairs(label i)
 {
     const particleCloud& cloud = c_.cloud;
-    const List<vector>& rest = c_.structure->reference().x0;
     forNeighbours<among::same>(c_.list, i, [&](pairIndex, label g) {
-        const label j = cloud.ownerOf(g);
-        if (cloud.uFixed[i] && cloud.uFixed[j]) return;
-        isometry image;
-        if (g != j)
-            image.R = cloud.ruleOf(g).R, image.t = cloud.x[g].xyz() - image.R * cloud.x[j].xyz();
-        const bool one = g == j ? bodyOf(i) == bodyOf(j) : joined(i, j, image);
-        const scalar reach = reachOf(one, (rest[i] - image(rest[j])).norm());
-        if (reach == 0) return;
+        if (cloud.uFixed[i] && cloud.uFixed[cloud.ownerOf(g)]) return;
+        const auto [j, image, atRest, one] = bodies_.between(i, g);
+        if (one) return;
+        // particles that are nearer at rest do not repel each other there
+        const scalar reach = std::min(pairReach * cloud.dx, atRest);
         pairs_.push_back({i, j, image, reach, 0.5 * std::min(stiffnessOf(i), stiffnessOf(j))});
     });
 }
