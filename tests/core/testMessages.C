@@ -38,6 +38,7 @@ TEST_CASE("errors read as OpenFOAM's")
 TEST_CASE("text helpers")
 {
     CHECK(validWords("solver", {"b", "a"}) == "Valid solvers are: a b");
+    CHECK(validWords("solver", {}) == "There is no solver");
     CHECK(didYouMean("tolerence", {"tol", "tolerance"}) == " Did you mean 'tolerance'?");
     CHECK(didYouMean("xyz", {"tolerance"}) == "");
     CHECK(join({"a", "b"}, ", ") == "a, b");

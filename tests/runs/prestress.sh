@@ -52,6 +52,7 @@ refused() { # entry words...
 }
 refused "pressures { wall 1; }" "Zone wall is solid"
 refused "pressures { blood 1; }" "lumen"
+refused "" "Nothing loads the solid at the start"
 refused "pressure 1;" "Valid are: pressures tolerance maxIter"
 refused "pressures { lumen 3e5; } maxIter 20;" "No shape at rest is found"
 ispfDictionary system/particleDict -entry zones.wall.rest -set '("x/1.02" "y*1.02" "z")' > /dev/null; place

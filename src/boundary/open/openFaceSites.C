@@ -207,7 +207,8 @@ void openFace::checkRim(const List<vector>& sites, const particleCloud& cloud) c
             "A solid ends at the open patch " + name_ + ", beside " + cloud.describe(at) +
                 ": nothing holds the fluid beyond. Let its zone, or one of phase clamped, "
                 "reach " +
-                str(depth_ / dx_ + 1) + " dx beyond the face",
+                str(depth_ / dx_ + 1) +
+                " dx beyond the face (the entry `beyond` of a zone made with `thickness`)",
             where_);
     }
 }

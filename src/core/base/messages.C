@@ -149,6 +149,7 @@ word formatted(const fatalError& error)
 
 word validWords(const word& what, List<word> words)
 {
+    if (words.empty()) return "There is no " + what;
     std::sort(words.begin(), words.end());
     const char last = what.empty() ? ' ' : what.back();
     const char* plural = last == 's' ? "" : last == 'h' || last == 'x' ? "es" : "s";

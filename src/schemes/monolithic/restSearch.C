@@ -23,6 +23,7 @@ constexpr scalar memory = 0.5;
 constexpr scalar longestPass = 0.2;
 // Times that a shear wave takes along the solid: a step so long has no inertia
 constexpr scalar longStep = 10;
+constexpr scalar nothing = 1e-12;  // strain that is rounding
 
 class restSearch
 {
@@ -229,6 +230,11 @@ void restSearch::run()
     for (label k = 1; k <= maxIter_; ++k)
     {
         strain = pass();
+        if (k == 1 && strain < nothing)
+            c_.structureProperties.fail(
+                "prestress",
+                "Nothing loads the solid at the start, so that it is at rest as it is. Give "
+                "`pressures` of the fluid's zones, or leave it away");
         c_.makeStructure();
         info() << "Prestress: pass " << k << ", strain " << str(strain, 3) << "\n";
         if (strain <= tolerance_) return release(velocities);
