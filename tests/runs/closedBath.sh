@@ -34,4 +34,16 @@ speed() { tail -n 1 postProcessing/"$1"/0/volFieldValue.dat | tr -d '()' | awk '
 awk -v left="$(speed left)" -v right="$(speed right)" 'BEGIN { s = left + right; exit !(right > 5e-3 && s*s < 2.5e-3*right*right) }' ||
     fail "the boxes move with $(speed left) and $(speed right) m/s"
 awk '!/^#/ && !($2*$2 < 100) { print "  p " $2 " Pa at " $1 " s"; exit 1 }' postProcessing/corner/0/p || fail "p"
+# Packed discs in a closed plane bath under g: nothing is absent around them, whatever the disorder of the particles, and all rests
+rm -rf 0 postProcessing
+echo "rho 1000; mu 1e-3;" > constant/physicalProperties; echo "value (3 -9.81 0);" > constant/g
+echo "structureModel totalLagrangian; material { type neoHookean; G 1e4; }" > constant/structureProperties
+echo "walls { type wall; }" > constant/boundary
+echo "endTime 0.05; deltaT 2e-3; writeControl none; functions { fastest { type minMax; fields (U); phase all; } }" > system/controlDict
+for solid in "shape cylinder; point1 (10e-3 10e-3 0); point2 (10e-3 10e-3 1); radius 5e-3;" "shape box; min (8e-3 0 0); max (12e-3 16e-3 0);"; do
+    echo "dx 1e-3; nDims 2; zones { water { phase fluid; shape box; min (0 0 0); max (20e-3 20e-3 0); } solid { phase solid; $solid } }" > system/particleDict
+    rm -rf 0 postProcessing; place; solved
+    speed=$(grep -v "^#" postProcessing/fastest/0/*.dat | tail -n 1 | tr -d '()' | awk '{ print ($2 > 0 ? $2 : -$2) + ($6 > 0 ? $6 : -$6) }')
+    awk -v u="$speed" 'BEGIN { exit !(u != "" && u < 1e-6) }' || fail "$solid moves by itself at $speed m/s"
+done
 [ $failures = 0 ]

@@ -74,6 +74,21 @@ vector solidSides::absentArea(label i) const
         });
 }
 
+// True if there is room for a particle ahead: a ball that packed particles nowhere leave between them, within the kernel
+bool solidSides::isEmpty(label i, const vector& n) const
+{
+    constexpr scalar room = 0.95, ahead[] = {1, 1.6, 2.2};  // [dx], doc/constants.md
+    const scalar dx = cloud_.dx;
+    return std::any_of(std::begin(ahead), std::end(ahead), [&](scalar t) {
+        const vector at = cloud_.x[i].xyz() + t * dx * n;
+        bool empty = true;
+        forNeighbours<among::all>(list_, i, [&](pairIndex, label j) {
+            empty = empty && (cloud_.x[j].xyz() - at).norm() > room * dx;
+        });
+        return empty;
+    });
+}
+
 // Half the mean way along the normal to what is absent, from the first moment of the kernel's gradient: that of a full support
 // is one
 vector solidSides::wayOut(label i, const vector& absent) const
@@ -101,7 +116,8 @@ solidSides::sides solidSides::of(label i) const
     });
     // in the midst of packed particles the kernel's sum has a gradient too, though nothing is absent
     constexpr scalar disorder = 0.15;  // doc/constants.md
-    if (const vector absent = absentArea(i); absent.norm() > disorder * V / cloud_.dx)
+    if (const vector absent = absentArea(i);
+        absent.norm() > disorder * V / cloud_.dx && isEmpty(i, absent.normalized()))
         areas.back() = absent;
     for (const int k : {0, 1})
     {
