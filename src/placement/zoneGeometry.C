@@ -15,9 +15,9 @@ namespace ispf
 namespace
 {
 
-constexpr label samples = 300000;        // of sampled()
-constexpr scalar mostDifference = 0.01;  // of the two ways to a volume, doc/constants.md
-constexpr scalar mostParticles = 5e8;    // labels, those of images included, can number so many
+constexpr label few = 20000, many = 300000;  // points of sampled(): to check, to measure
+constexpr scalar mostDifference = 0.01;      // of the two ways to a volume, doc/constants.md
+constexpr scalar mostParticles = 5e8;        // labels, those of images included, can number so many
 
 }  // namespace
 
@@ -334,7 +334,7 @@ void zoneGeometry::setVolumes()
 }
 
 // Counts points that fill the box around the zone evenly
-zoneGeometry::sampledSize zoneGeometry::sampled(label zone) const
+zoneGeometry::sampledSize zoneGeometry::sampled(label zone, label samples) const
 {
     boundBox box = boundary_[zone].bounds();
     for (size_t k = 0; k < bodies_.size(); ++k)
@@ -358,10 +358,15 @@ zoneGeometry::sampledSize zoneGeometry::sampled(label zone) const
 // wall, leave a gap in what bounds the zone
 scalar zoneGeometry::sameAsSampled(label zone, scalar volume) const
 {
-    const auto [found, points] = sampled(zone);
     // the error of a count is at most that of points at random
-    const scalar uncertain = mostDifference + 1 / std::sqrt(std::max(points, scalar(1)));
-    if (std::abs(volume - found) < uncertain * found || points < 100) return volume;
+    const auto fits = [&](const sampledSize& s) {
+        const scalar uncertain = mostDifference + 1 / std::sqrt(std::max(s.points, scalar(1)));
+        return std::abs(volume - s.volume) < uncertain * s.volume || s.points < 100;
+    };
+    if (fits(sampled(zone, few))) return volume;
+    const sampledSize measured = sampled(zone, many);
+    if (fits(measured)) return volume;
+    const scalar found = measured.volume;
     warning(
         "Zone " + zones_[zone].name + ": its faces enclose " + str(volume, 4) + " m" +
         std::to_string(nDims_) + ", but " + str(found, 4) + " m" + std::to_string(nDims_) +
