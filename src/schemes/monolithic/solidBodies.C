@@ -29,15 +29,40 @@ solidBodies::solidBodies(const fsiCase& c)
         });
 }
 
-// True if the body of i goes on in the image of that of j, with which it is one at rest
-bool solidBodies::joined(label i, label j, const isometry& image) const
+// Number of the image, 0: the identity, -1: none of those that solids have at rest
+label solidBodies::numberOf(const isometry& image) const
 {
+    const auto same = [&](const isometry& M) {
+        return (M.R - image.R).norm() < 1e-6 && (M.t - image.t).norm() < 1e-6 * c_.cloud.dx;
+    };
+    if (same(isometry())) return 0;
     const List<isometry>& images = c_.structure->reference().images;
-    const scalar tiny = 1e-6 * c_.cloud.dx;
     for (size_t m = 0; m < images.size(); ++m)
-        if ((images[m].R - image.R).norm() < 1e-6 && (images[m].t - image.t).norm() < tiny)
-            return joinedImages_.count({bodyOf(i), bodyOf(j), label(m) + 1}) > 0;
+        if (same(images[m])) return label(m) + 1;
+    return -1;
+}
+
+// True if a particle is a neighbour of both at rest
+bool solidBodies::share(label i, label j) const
+{
+    const referenceNeighbours& near = c_.structure->gradient().neighbours();
+    std::int64_t a = near.start[i], b = near.start[j];
+    while (a < near.mid[i] && b < near.mid[j])
+    {
+        if (near.index[a] == near.index[b]) return true;
+        ++(near.index[a] < near.index[b] ? a : b);
+    }
     return false;
+}
+
+// True if the solid goes on from i to the image of j: they are a pair, or too far apart for one but not for a common neighbour
+bool solidBodies::goesOn(label i, label j, label image, scalar atRest) const
+{
+    const structureModel& structure = *c_.structure;
+    if (image < 0 || atRest > ownBody * c_.cloud.dx) return false;
+    if (atRest < (1 - 1e-6) * structure.reference().support)
+        return structure.gradient().neighbours().placeOf(i, j, std::uint16_t(image)) >= 0;
+    return image == 0 ? share(i, j) : joinedImages_.count({bodyOf(i), bodyOf(j), image}) > 0;
 }
 
 solidBodies::relation solidBodies::between(label i, label g) const
@@ -50,8 +75,7 @@ solidBodies::relation solidBodies::between(label i, label g) const
         r.image.R = cloud.ruleOf(g).R,
         r.image.t = cloud.x[g].xyz() - r.image.R * cloud.x[r.j].xyz();
     r.atRest = (rest[i] - r.image(rest[r.j])).norm();
-    r.one = r.atRest < ownBody * cloud.dx &&
-            (g == r.j ? bodyOf(i) == bodyOf(r.j) : joined(i, r.j, r.image));
+    r.one = goesOn(i, r.j, numberOf(r.image), r.atRest);
     return r;
 }
 

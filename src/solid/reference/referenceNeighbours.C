@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "referenceNeighbours.H"
-#include "disjointSets.H"
 #include "forPairs.H"
 #include "messages.H"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
-#include <numeric>
-#include <set>
-#include <tuple>
 
 namespace ispf
 {
@@ -22,8 +20,13 @@ struct candidate
     std::uint16_t image;
 };
 
-// [dx] nearer particles are of one body.  Between lattice layers half a spacing of room divides two bodies
+// [dx, or the spacing of a stretched rest] nearer particles are of one piece of solid.  Between lattice layers half a spacing of
+// room divides two pieces
 constexpr scalar touching = 1.4;
+// [1] neighbours span the space if the sum of n n^T over their directions n has no smaller eigenvalue
+constexpr scalar spans = 0.1;
+// [dx] a chain between two particles goes no farther than this from one of them
+constexpr scalar chains = 2.6;
 
 // Every particle, and every image within `radius` of the particles' bounding box
 struct candidateGrid
@@ -114,68 +117,103 @@ List<rowEntry> findRow(const structureReference& ref, const candidateGrid& grid,
     return row;
 }
 
-// Number of the map that is a after b, -1: it is not in the list.  0 is the map that moves nothing
-label composed(const structureReference& ref, label a, label b)
+vector placeOf(const structureReference& ref, const rowEntry& e)
 {
-    const isometry none, &A = a ? ref.images[a - 1] : none, &B = b ? ref.images[b - 1] : none;
-    const tensor R = A.R * B.R;
-    const vector t = A.R * B.t + A.t;
-    for (label m = 0; m <= label(ref.images.size()); ++m)
-    {
-        const isometry& M = m ? ref.images[m - 1] : none;
-        if ((M.R - R).norm() < 1e-6 && (M.t - t).norm() < 1e-6 * ref.dx) return m;
-    }
-    return -1;
+    const vector& x = ref.x0[e.second];
+    return e.first ? ref.images[e.first - 1](x) : x;
 }
 
-// Leaves out the pairs of two bodies, or of a body and an image, that no chain of touching particles joins: there is no solid
-// between them
-void divideBodies(const structureReference& ref, List<List<rowEntry>>& rows)
+// Spacing of the rest around i: as far as its nearest neighbours span the space.  A rest that is stretched more than `touching`
+// one way is compressed another way, where its particles touch
+scalar spacingAround(const structureReference& ref, const List<rowEntry>& row, label i)
 {
-    const auto touch = [&](label i, const rowEntry& e) {
-        const vector& x = ref.x0[e.second];
-        return (ref.x0[i] - (e.first ? ref.images[e.first - 1](x) : x)).norm() < touching * ref.dx;
-    };
-    List<label> body(ref.n());
-    std::iota(body.begin(), body.end(), 0);
-    for (label i = 0; i < ref.n(); ++i)
-        for (const rowEntry& e : rows[i])
-            if (e.first == 0 && touch(i, e)) join(body, i, label(e.second));
-    // Numbers the bodies: each particle leads to a lower one of its body, the first to itself
-    label nBodies = 0;
-    for (label i = 0; i < ref.n(); ++i) body[i] = body[i] == i ? nBodies++ : body[body[i]];
+    List<vector> apart;
+    for (const rowEntry& e : row) apart.push_back(placeOf(ref, e) - ref.x0[i]);
+    std::sort(apart.begin(), apart.end(),
+              [](const vector& a, const vector& b) { return a.squaredNorm() < b.squaredNorm(); });
+    tensor directions = tensor::Zero();
+    if (ref.nDims == 2) directions(2, 2) = scalar(apart.size());
+    for (const vector& d : apart)
+    {
+        directions += d * d.transpose() / d.squaredNorm();
+        const Eigen::SelfAdjointEigenSolver<tensor> solver(directions, Eigen::EigenvaluesOnly);
+        if (solver.eigenvalues()[0] > spans) return std::max(ref.dx, d.norm());
+    }
+    return ref.dx;
+}
 
-    std::set<std::tuple<label, label, label>> links;
-    for (label i = 0; i < ref.n(); ++i)
-        for (const rowEntry& e : rows[i])
-            if (e.first && touch(i, e)) links.insert({body[i], body[e.second], e.first});
-    const label nMaps = label(ref.images.size()) + 1;
-    List<label> sets(nBodies * nMaps);  // of body b in image m: m nBodies + b
-    std::iota(sets.begin(), sets.end(), 0);
-    for (const auto& [b, other, image] : links)
-        for (label m = 0; m < nMaps; ++m)
-            if (const label to = composed(ref, m, image); to >= 0)
-                join(sets, m * nBodies + b, to * nBodies + other);
-    for (label s = 0; s < label(sets.size()); ++s) sets[s] = representative(sets, s);
-    for (label i = 0; i < ref.n(); ++i)
-        rows[i].erase(std::remove_if(rows[i].begin(), rows[i].end(),
-                                     [&](const rowEntry& e) {
-                                         return sets[body[i]] !=
-                                                sets[e.first * nBodies + body[e.second]];
-                                     }),
-                      rows[i].end());
+// Which entries of the row of i a chain of touching particles of the row joins to i
+List<char> reachedFrom(const structureReference& ref, const List<scalar>& spacing,
+                       const List<rowEntry>& row, label i)
+{
+    struct link
+    {
+        vector x;
+        scalar spacing;
+    };
+    List<link> all;
+    for (const rowEntry& e : row) all.push_back({placeOf(ref, e), spacing[e.second]});
+    List<link> front = {{ref.x0[i], spacing[i]}};
+    List<char> reached(row.size(), 0);
+    while (!front.empty())
+    {
+        const link a = front.back();
+        front.pop_back();
+        for (size_t k = 0; k < row.size(); ++k)
+        {
+            const link& b = all[k];
+            if (reached[k] || (b.x - a.x).norm() >= touching * std::max(a.spacing, b.spacing))
+                continue;
+            reached[k] = 1;
+            front.push_back(b);
+        }
+    }
+    return reached;
+}
+
+// Leaves out the pairs farther apart than `radius`, and those that no such chain joins, seen from either end: there is no solid
+// between them
+void trim(const structureReference& ref, scalar radius, List<List<rowEntry>>& rows)
+{
+    List<scalar> spacing(ref.n());
+    List<List<char>> keep(ref.n());
+    parallelFor(ref.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i) spacing[i] = spacingAround(ref, rows[i], i);
+    });
+    parallelFor(ref.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i) keep[i] = reachedFrom(ref, spacing, rows[i], i);
+    });
+    const List<std::uint16_t> inverse = ref.inverseImages();
+    const auto seenBack = [&](label i, const rowEntry& e) {
+        const List<rowEntry>& row = rows[e.second];
+        const rowEntry back(e.first ? inverse[e.first - 1] + 1 : 0, i);
+        const auto at = std::lower_bound(row.begin(), row.end(), back);
+        return at != row.end() && *at == back && keep[e.second][at - row.begin()] > 0;
+    };
+    List<List<rowEntry>> kept(ref.n());
+    parallelFor(ref.n(), [&](label begin, label end) {
+        for (label i = begin; i < end; ++i)
+            for (size_t k = 0; k < rows[i].size(); ++k)
+            {
+                const rowEntry& e = rows[i][k];
+                const bool near = (ref.x0[i] - placeOf(ref, e)).norm() <= radius;
+                if (near && (keep[i][k] || seenBack(i, e))) kept[i].push_back(e);
+            }
+    });
+    rows = std::move(kept);
 }
 
 }  // namespace
 
 referenceNeighbours::referenceNeighbours(const structureReference& ref, scalar radius)
 {
-    const candidateGrid grid(ref, radius);
+    const scalar reach = std::max(radius, chains * ref.dx);
+    const candidateGrid grid(ref, reach);
     List<List<rowEntry>> rows(ref.n());
     parallelFor(ref.n(), [&](label begin, label end) {
-        for (label i = begin; i < end; ++i) rows[i] = findRow(ref, grid, i, radius);
+        for (label i = begin; i < end; ++i) rows[i] = findRow(ref, grid, i, reach);
     });
-    divideBodies(ref, rows);
+    trim(ref, radius, rows);
     start.push_back(0);
     for (const List<rowEntry>& row : rows)
     {
@@ -187,26 +225,32 @@ referenceNeighbours::referenceNeighbours(const structureReference& ref, scalar r
     }
 }
 
+std::int64_t referenceNeighbours::placeOf(label i, std::int32_t partner,
+                                          std::uint16_t imageOfIt) const
+{
+    std::int64_t low = start[i], high = start[i + 1];
+    const rowEntry wanted(imageOfIt, partner);
+    while (low < high)
+    {
+        const std::int64_t middle = (low + high) / 2;
+        if (rowEntry(image[middle], index[middle]) < wanted) low = middle + 1;
+        else high = middle;
+    }
+    return low < start[i + 1] && rowEntry(image[low], index[low]) == wanted ? low : -1;
+}
+
 List<std::int64_t> referenceNeighbours::reverse(const structureReference& ref) const
 {
     List<std::int64_t> found(index.size());
     const List<std::uint16_t> inverse = ref.inverseImages();
     for (label i = 0; i < n(); ++i)
         forNeighbours<among::all>(*this, i, [&](pairIndex p, label j) {
-            const rowEntry wanted(image[p] ? inverse[image[p] - 1] + 1 : 0, i);
-            std::int64_t low = start[j], high = start[j + 1];
-            while (low < high)
-            {
-                const std::int64_t middle = (low + high) / 2;
-                if (rowEntry(image[middle], index[middle]) < wanted) low = middle + 1;
-                else high = middle;
-            }
-            if (low == start[j + 1] || rowEntry(image[low], index[low]) != wanted)
+            found[p] = placeOf(j, i, image[p] ? std::uint16_t(inverse[image[p] - 1] + 1) : 0);
+            if (found[p] < 0)
                 throw fatalError(
                     "Solid particles " + std::to_string(i) + " and " + std::to_string(j) +
                     " see each other's images from one side only: they are exactly one "
                     "link radius apart. Change the radius by 1e-4");
-            found[p] = low;
         });
     return found;
 }

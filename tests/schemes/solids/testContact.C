@@ -237,6 +237,55 @@ TEST_CASE("two blocks with nothing around them, almost out of each other's reach
     CHECK(std::stoi(text.substr(text.rfind(before) + before.size())) < 25);
 }
 
+// Two arms on one root, 17 spacings long, with a slit of `open` columns between them and nothing around.
+struct arms
+{
+    scalar least, tips;  // distances after forces have pulled or pressed the arms for 0.3 s [dx]
+};
+arms pull(int open, scalar acceleration)
+{
+    constexpr int width = 5, root = 3, length = 17;
+    caseOnDisk files("contactSlit");
+    files.fill(2 * width + open, root + length, dx);
+    particleTable all = files.particles(), &t = files.particles();
+    t.x.clear(), t.integers["zone"].clear();
+    for (const int zone : {0, 1, 2})
+        for (const vector& x : all.x)
+        {
+            const int i = int(x[0] / dx), j = int(x[1] / dx);
+            if (j >= root && i >= width && i < width + open) continue;
+            if (zone == (j < root ? 2 : i >= width))
+                t.x.push_back(x), t.integers["zone"].push_back(zone);
+        }
+    t.vectors["U"].resize(t.x.size()), t.scalars["p"].resize(t.x.size());
+    t.integers["id"].resize(t.x.size());
+    t.attributes["zones"] = "left right root", t.attributes["phases"] = "solid solid clamped";
+    const word outward = str(acceleration, 6), inward = str(-acceleration, 6);
+    files.solution = "coupling monolithic;";
+    files.properties =
+        "rho 1000; mu 1e-3; bodyForce { left (" + inward + " 0 0); right (" + outward + " 0 0); }";
+    files.control = "startTime 0; endTime 100; deltaT 1; writeControl timeStep; writeInterval 1e6;";
+    files.write();
+    setContent(
+        files.path() + "/constant/structureProperties",
+        "structureModel totalLagrangian; material { type neoHookean; G 1e4; viscosity 100; }");
+    capturedLog log;
+    Time time(files.path());
+    fsiCase c(time);
+    const auto scheme = couplingScheme::New(c);
+    runSteps(c, *scheme, dt, 150);
+    const label tip[2] = {(length - 1) * width + width - 1, length * width + (length - 1) * width};
+    return {apart(c.cloud), (c.cloud.x[tip[1]].xyz() - c.cloud.x[tip[0]].xyz()).norm() / dx};
+}
+
+TEST_CASE("two arms of one body part across a slit of one spacing as across a wide one, and meet")
+{
+    const scalar narrow = pull(1, 8).tips - 2, wide = pull(4, 8).tips - 5;
+    CHECK(narrow > 2);
+    CHECK(narrow == relative(wide, 0.03));
+    CHECK(pull(1, -8).least > 1.5);
+}
+
 TEST_CASE("layers that slide over each other: what holds them back, over what presses them")
 {
     slabs s;
