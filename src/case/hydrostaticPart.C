@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hydrostaticPart.H"
 
+#include <algorithm>
+
 namespace ispf
 {
 
@@ -61,12 +63,27 @@ scalar hydrostaticPart::meanOfGiven(const particleCloud& cloud, const vector& a,
 
 // p loses the level that it has at the step's start.  Else a change of the given pressures would change all p' at once, and what
 // the solver leaves is in proportion to the error of its guess
-void hydrostaticPart::take(particleCloud& cloud, bool level)
+void hydrostaticPart::take(particleCloud& cloud, bool level,
+                           const std::optional<outerPressure>& outer)
 {
-    const bool takes = level || !during_.isZero(0);
-    level_ = takes ? meanOfGiven(cloud, during_, [&](label i) { return cloud.pGiven[i]; }) : 0;
-    const scalar old =
-        takes ? meanOfGiven(cloud, before_, [&](label i) { return cloud.Up[i][3]; }) : 0;
+    const bool takes = level || outer || !during_.isZero(0);
+    level_ = 0;
+    scalar old = 0;
+    const auto given = [&] {
+        return std::any_of(cloud.pFixed.begin(), cloud.pFixed.begin() + cloud.n(),
+                           [](char fixed) { return fixed; });
+    };
+    if (outer && !(level && given()))
+    {
+        level_ = outer->during - c_.rho * during_.dot(outer->at);
+        old = outer->before - c_.rho * before_.dot(outer->at);
+    }
+    else if (takes)
+    {
+        level_ = meanOfGiven(cloud, during_, [&](label i) { return cloud.pGiven[i]; });
+        old = meanOfGiven(cloud, before_, [&](label i) { return cloud.Up[i][3]; });
+    }
+    fall_ = old - level_;
     if (!takes && before_.isZero(0)) return;
     forEach(0, cloud.n(), [&](label i) {
         const vector x = cloud.x[i].xyz();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "enclosedFluid.H"
 #include "closedBodies.H"
+#include "disjointSets.H"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
 namespace ispf
 {
@@ -16,16 +17,33 @@ const stateEntry<List<scalar>> divergenceDefect{"divergenceDefect"};
 
 }  // namespace entries
 
+enclosedFluid::enclosedFluid(const fsiCase& c) : c_(c)
+{
+    if (c.structure) solidOf_ = c.structure->tangentPattern().connectedSets();
+    label n = 0;  // each particle leads to the first of its solid
+    for (label i = 0; i < label(solidOf_.size()); ++i)
+        solidOf_[i] = solidOf_[i] == i ? n++ : solidOf_[solidOf_[i]];
+    levelOfSolid_.assign(n, -1);
+}
+
 void enclosedFluid::setup(const solidSurface* surface)
 {
     surface_ = surface;
-    const particleCloud& cloud = c_.cloud;
-    const label nz = label(cloud.zones.size());
-    bodies_.clear(), bodyOf_.assign(nz, -1), allFree_ = false;
-    const List<label> rootOf = closedBodies(cloud, c_.list);
+    bodies_.clear(), levels_.clear(), bodyOf_.assign(c_.cloud.zones.size(), -1);
+    std::fill(levelOfSolid_.begin(), levelOfSolid_.end(), -1);
+    const List<label> rootOf = closedBodies(c_.cloud, c_.list);
     if (std::all_of(rootOf.begin(), rootOf.end(), [](label r) { return r < 0; })) return;
+    findBodies(rootOf);
+    findLevels();
+    const sweptRates swept = c_.walls->swept(c_.cloud);
+    for (const level& l : levels_) refusePush(c_, swept, l.zones);
+}
 
-    const sweptRates swept = c_.walls->swept(cloud);
+// rootOf: of closedBodies
+void enclosedFluid::findBodies(const List<label>& rootOf)
+{
+    const particleCloud& cloud = c_.cloud;
+    const label nz = label(rootOf.size());
     const List<scalar> count =
         blockSums(cloud.n() - cloud.nSolid(), nz, [&](label begin, label end, scalar* of) {
             std::fill_n(of, nz, 0);
@@ -33,31 +51,64 @@ void enclosedFluid::setup(const solidSurface* surface)
         });
     for (label r = 0; r < nz; ++r)
     {
+        if (rootOf[r] != r) continue;
         body b;
         b.isZone.assign(nz, 0);
         for (label z = r; z < nz; ++z)
-        {
-            if (rootOf[z] != r) continue;
-            b.zones.push_back(z), b.isZone[z] = 1, b.n += label(count[z]);
-            bodyOf_[z] = label(bodies_.size());
-        }
-        if (b.n > 0) bodies_.push_back(std::move(b));
+            if (rootOf[z] == r)
+                b.isZone[z] = 1, b.n += label(count[z]), bodyOf_[z] = label(bodies_.size());
+        b.volume = b.n * cloud.volume();
+        bodies_.push_back(std::move(b));
     }
-    scalar wetted = 0;
-    for (body& b : bodies_)
+}
+
+// Joins the bodies that the free part of one solid lies between, and joins with `given` those whose solid reaches an open surface,
+// or fluid with a given pressure.  Each set without it has a free level
+void enclosedFluid::findLevels()
+{
+    const label given = label(bodies_.size()), nSolids = label(levelOfSolid_.size());
+    List<label> set(given + 1 + nSolids);
+    std::iota(set.begin(), set.end(), 0);
+    const auto nodeOf = [&](label zone) {
+        return zone >= 0 && bodyOf_[zone] >= 0 ? bodyOf_[zone] : given;
+    };
+    for (label k = 0; surface_ && k < c_.cloud.nSolid(); ++k)
+        if (!c_.cloud.uFixed[k])
+            surface_->forZonesBefore(
+                k, [&](label zone) { join(set, nodeOf(zone), given + 1 + solidOf_[k]); });
+
+    List<label> number(set.size(), -1);  // of the level of each set
+    const auto numberOf = [&](label node) { return number[representative(set, node)]; };
+    for (label b = 0; b < given; ++b)
     {
-        const scalar area = surface_ ? surface_->area(b.isZone) : 0;
-        b.free = area == 0, wetted += area;
-        if (b.free) refusePush(c_, swept, b.zones);
+        const label root = representative(set, b);
+        if (root == representative(set, given)) continue;
+        if (number[root] < 0) number[root] = label(levels_.size()), levels_.emplace_back();
+        level& l = levels_[bodies_[b].level = number[root]];
+        l.n += bodies_[b].n;
+        for (label z = 0; z < label(bodyOf_.size()); ++z)
+            if (bodyOf_[z] == b) l.zones.push_back(z);
     }
-    const bool given = *std::max_element(cloud.pFixed.begin(), cloud.pFixed.end());
-    allFree_ = wetted > 0 && !given && surface_->wetAndOpen()[1] == 0;
+    for (label s = 0; s < nSolids; ++s)
+    {
+        levelOfSolid_[s] = numberOf(given + 1 + s);
+        if (levelOfSolid_[s] >= 0) levels_[levelOfSolid_[s]].ofSolid = true;
+    }
+}
+
+// Free level of the pressure of particle i, -1: its level is given
+label enclosedFluid::levelOf(label i) const
+{
+    const particleCloud& cloud = c_.cloud;
+    if (!cloud.isFluid(i)) return levelOfSolid_[solidOf_[i]];
+    const label body = bodyOf_[cloud.zone[i]];
+    return body < 0 ? -1 : bodies_[body].level;
 }
 
 bool enclosedFluid::inactive() const
 {
-    return !makesGood_ || allFree_ ||
-           std::all_of(bodies_.begin(), bodies_.end(), [](const body& b) { return b.free; });
+    return !makesGood_ ||
+           std::all_of(bodies_.begin(), bodies_.end(), [](const body& b) { return b.level >= 0; });
 }
 
 void enclosedFluid::addDefect(List<scalar>& q)
@@ -67,8 +118,7 @@ void enclosedFluid::addDefect(List<scalar>& q)
     const state s(cloud);
     for (body& b : bodies_)
     {
-        b.volume = b.n * cloud.volume();
-        if (b.free) continue;
+        if (b.level >= 0) continue;
         b.added = cloud.volume() * sumOf(cloud.nSolid(), cloud.n(), [&](label i) {
                       const label z = cloud.zone[i];
                       return b.isZone[z] ? s.defect[z] : 0;
@@ -88,10 +138,11 @@ void enclosedFluid::account(particleCloud& cloud, scalar dt, const List<tensor>&
     std::fill(s.defect.begin(), s.defect.end(), 0);
     for (const body& b : bodies_)
     {
-        if (inactive() || b.free) continue;
+        if (inactive() || b.level >= 0) continue;
         s.booked += b.added * dt;
         const scalar defect = surface_->missed(cloud.Up, dF, way, b.isZone);
-        for (const label z : b.zones) s.defect[z] = defect / b.volume;
+        for (size_t z = 0; z < s.defect.size(); ++z)
+            if (b.isZone[z]) s.defect[z] = defect / b.volume;
     }
     s.write(cloud);
 }
@@ -112,74 +163,48 @@ void enclosedFluid::state::write(particleCloud& cloud) const
     cloud.state.set(entries::divergenceDefect, kept);
 }
 
-// Takes the mean off the continuity rows of the n particles with counts(i)
-template <class Counts>
-void enclosedFluid::removeMean(Counts&& counts, label n, List<scalar>& rows) const
+// Mean of value(i) over the fluid of each level
+template <class Value>
+List<scalar> enclosedFluid::means(Value&& value) const
 {
-    const auto counted = [&](label i) { return counts(i) ? rows[4 * i + 3] : 0; };
-    const scalar mean = sumOf(0, c_.cloud.n(), counted) / n;
-    forEach(0, c_.cloud.n(), [&](label i) {
-        if (counts(i)) rows[4 * i + 3] -= mean;
-    });
-}
-
-bool enclosedFluid::ofFreeBody(label i) const
-{
-    const label b = c_.cloud.isFluid(i) ? bodyOf_[c_.cloud.zone[i]] : -1;
-    return b >= 0 && bodies_[b].free;
+    const label nSolid = c_.cloud.nSolid(), n = label(levels_.size());
+    List<scalar> sums =
+        blockSums(c_.cloud.n() - nSolid, n, [&](label begin, label end, scalar* of) {
+            std::fill_n(of, n, 0);
+            for (label i = nSolid + begin; i < nSolid + end; ++i)
+                if (const label l = levelOf(i); l >= 0) of[l] += value(i);
+        });
+    for (label l = 0; l < n; ++l) sums[l] /= levels_[l].n;
+    return sums;
 }
 
 void enclosedFluid::dropLevel(List<vec4>& up) const
 {
-    if (!allFree_) return;
-    const label n = c_.cloud.n();
-    const auto [sum, count] = sumsOf(c_.cloud.nSolid(), n, [&](label i) -> std::array<scalar, 2> {
-        if (ofFreeBody(i)) return {};
-        return {up[i][3], 1};
-    });
-    forEach(0, n, [&](label i) {
-        if (!ofFreeBody(i)) up[i][3] -= sum / count;
+    if (std::none_of(levels_.begin(), levels_.end(), [](const level& l) { return l.ofSolid; }))
+        return;
+    const List<scalar> mean = means([&](label i) { return up[i][3]; });
+    forEach(0, c_.cloud.n(), [&](label i) {
+        if (const label l = levelOf(i); l >= 0 && levels_[l].ofSolid) up[i][3] -= mean[l];
     });
 }
 
-void enclosedFluid::keepLevel(const particleCloud& cloud, List<scalar>& z) const
+void enclosedFluid::keepLevel(const particleCloud& cloud, scalar fall, List<scalar>& z) const
 {
-    // index of all particles that are in no free body, solids included
-    const label others = label(bodies_.size());
-    const auto groupOf = [&](label i) {
-        const label b = cloud.isFluid(i) ? bodyOf_[cloud.zone[i]] : -1;
-        return b >= 0 && bodies_[b].free ? b : others;
-    };
-    const label nSolid = cloud.nSolid();
-    List<scalar> sums =
-        blockSums(cloud.n() - nSolid, 2 * (others + 1), [&](label begin, label end, scalar* of) {
-            std::fill_n(of, 2 * (others + 1), 0);
-            for (label i = nSolid + begin; i < nSolid + end; ++i)
-            {
-                scalar* group = of + 2 * groupOf(i);
-                group[0] += z[4 * i + 3] - cloud.Up[i][3], group[1] += 1;
-            }
-        });
-    if (!allFree_) sums[2 * others] = 0;
+    if (levels_.empty()) return;
+    const List<scalar> gain = means([&](label i) { return z[4 * i + 3] - cloud.Up[i][3] - fall; });
     forEach(0, cloud.n(), [&](label i) {
-        const scalar* group = sums.data() + 2 * groupOf(i);
-        if (group[1] > 0) z[4 * i + 3] -= group[0] / group[1];
+        if (const label l = levelOf(i); l >= 0) z[4 * i + 3] -= gain[l];
     });
 }
 
 void enclosedFluid::balance(List<scalar>& rows) const
 {
+    if (levels_.empty()) return;
     const particleCloud& cloud = c_.cloud;
-    label others = cloud.n() - cloud.nSolid();
-    const auto bodyOf = [&](label i) { return cloud.isFluid(i) ? bodyOf_[cloud.zone[i]] : -1; };
-    for (label b = 0; b < label(bodies_.size()); ++b)
-    {
-        if (!bodies_[b].free) continue;
-        removeMean([&](label i) { return bodyOf(i) == b; }, bodies_[b].n, rows);
-        others -= bodies_[b].n;
-    }
-    if (allFree_)
-        removeMean([&](label i) { return cloud.isFluid(i) && !ofFreeBody(i); }, others, rows);
+    const List<scalar> mean = means([&](label i) { return rows[4 * i + 3]; });
+    forEach(cloud.nSolid(), cloud.n(), [&](label i) {
+        if (const label l = levelOf(i); l >= 0) rows[4 * i + 3] -= mean[l];
+    });
 }
 
 }  // namespace ispf

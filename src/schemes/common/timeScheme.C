@@ -61,8 +61,15 @@ void timeScheme::start(particleCloud& cloud, scalar t, scalar dt)
     setCoefficients(before_);
     List<vec4>& way = cloud.vectors[aheadOfStep];
     way.assign(cloud.n(), vec4{});
+    const vec4 *before = fieldOf(cloud, levelBefore), *last = fieldOf(cloud, lastWay);
     forEach(0, cloud.n(), [&](label i) {
-        way[i] = vec4::from(to_ * cloud.Up[i].xyz()), cloud.x[i].s += way[i].s;
+        if (i < cloud.nSolid() && !cloud.uFixed[i])
+        {
+            const vector mean = (cloud.Up[i].xyz() + before[i].xyz()) / 2;
+            way[i] = vec4::from(tau_ * mean - ofLevelBefore() * before_ * last[i].xyz());
+        }
+        else way[i] = vec4::from(to_ * cloud.Up[i].xyz());
+        cloud.x[i].s += way[i].s;
     });
 }
 
@@ -81,9 +88,8 @@ List<vec4> timeScheme::elasticStart(const particleCloud& cloud) const
     x.resize(cloud.nSolid());
     if (!(to_ > 0)) return x;
     const vec4* way = fieldOf(cloud, lastWay);
-    const scalar ofBefore = b0_ - b2_ / a2_ * a0_;
     for (label i = 0; i < cloud.nSolid(); ++i)
-        x[i].s -= ofBefore * before_ * vec4::from(way[i].xyz()).s;
+        x[i].s -= ofLevelBefore() * before_ * vec4::from(way[i].xyz()).s;
     return x;
 }
 
@@ -99,7 +105,7 @@ void timeScheme::begin(particleCloud& cloud)
     now_.assign(cloud.Up.begin(), cloud.Up.begin() + n);
     if (!(to_ > 0)) return;
     const vec4* before = fieldOf(cloud, levelBefore);
-    const scalar ofNow = b1_ - b2_ / a2_ * a1_, ofBefore = b0_ - b2_ / a2_ * a0_;
+    const scalar ofNow = b1_ - b2_ / a2_ * a1_, ofBefore = ofLevelBefore();
     for (label i = 0; i < n; ++i)
         if (cloud.isFree(i)) cloud.Up[i].setXyz(ofNow * now_[i].xyz() + ofBefore * before[i].xyz());
 }

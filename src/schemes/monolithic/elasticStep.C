@@ -36,7 +36,7 @@ label elasticStep::mostPasses() const
     return contact_ ? std::max(entries_.maxIter, contactPasses) : entries_.maxIter;
 }
 
-void elasticStep::begin(List<vec4> x0, scalar tau, const List<scalar>& p)
+void elasticStep::begin(List<vec4> x0, scalar tau, const List<scalar>& p, const List<vec4>& xp)
 {
     x0_ = std::move(x0), tau_ = tau, pass_ = 0, first_ = last_ = 0;
     outside_.clear(), resists_ = nullptr, contact_ = nullptr;
@@ -47,19 +47,36 @@ void elasticStep::begin(List<vec4> x0, scalar tau, const List<scalar>& p)
         stiffness_[i] = K_.diagonal[i].trace() / structure_->reference().nDims;
     });
     if (structure_->damps()) structure_->assembleDamping(x0_, D_);
-    if (newton()) keepResistance();
-    if (structure_->damps()) K_.addScaled(1 / tau_, D_);
+    ahead_.clear();
+    if (newton() || !xp.empty()) keepTurning(p);
+    if (!xp.empty()) bringBack(xp);
+    if (structure_->damps())
+    {
+        K_.addScaled(1 / tau_, D_);
+        if (newton()) R_.addScaled(1 / tau_, D_);
+    }
     start_ = force_;
 }
 
-// R of (7.17), which is that of x_0 in all passes
-void elasticStep::keepResistance()
+// K_p of (7.17) and (7.25), which is that of x_0 in all passes
+void elasticStep::keepTurning(const List<scalar>& p)
 {
-    blockMatrix3 elastic = structure_->tangentPattern();
-    structure_->assembleTangent(x0_, tangentKind::positive, elastic);
-    R_ = K_;
-    R_.addScaled(-1, elastic);
-    if (structure_->damps()) R_.addScaled(1 / tau_, D_);
+    blockMatrix3 without = structure_->tangentPattern();
+    R_ = structure_->tangentPattern();
+    structure_->assembleTangent(x0_, tangentKind::full, p, R_);
+    structure_->assembleTangent(x0_, tangentKind::full, without);
+    R_.addScaled(-1, without);
+}
+
+// (7.25): K_p leads from x_p, where the force of the pressure is taken, to the end of the step
+void elasticStep::bringBack(const List<vec4>& xp)
+{
+    const label n = structure_->n();
+    List<vec4> way(n);
+    forEach(0, n, [&](label i) { way[i] = vec4::from(xp[i].xyz() - x0_[i].xyz()); });
+    ahead_.resize(n);
+    R_.apply(way, ahead_);
+    forEach(0, n, [&](label i) { force_[i].s += ahead_[i].s; });
 }
 
 scalar elasticStep::dissipated(const List<vec4>& u) const
@@ -120,7 +137,8 @@ void elasticStep::iterate(const List<scalar>& z)
         structure_->force(x_, f_);
         R_.apply(u_, Ru);
         forEach(0, n, [&](label i) { f_[i].s -= tau_ * Ru[i].s; });
-        if (!outside_.empty()) forEach(0, n, [&](label i) { f_[i].s += outside_[i].s; });
+        for (const List<vec4>* constant : {&outside_, &ahead_})
+            if (!constant->empty()) forEach(0, n, [&](label i) { f_[i].s += (*constant)[i].s; });
         if (resists_)
         {
             resists_->apply(u_, Ru);

@@ -194,7 +194,8 @@ void monolithic::elasticState()
         outside_->pressureAt(time_.times().pressures, system_.hydrostatic());
     c_.cloud.fillGhosts(c_.cloud.Up, false);
     elastic_.begin(time_.elasticStart(c_.cloud), time_.tau(),
-                   surface_.overSurface(c_.cloud.Up, *volume_, outsidePressure));
+                   surface_.overSurface(c_.cloud.Up, *volume_, outsidePressure),
+                   time_.midway() ? c_.cloud.x : List<vec4>());
     if (outsidePressure)
     {
         outside_->setStep(c_, surface_, system_.hydrostatic(),
@@ -275,7 +276,7 @@ word monolithic::pass(FGMRES& solver, List<scalar>& b, List<scalar>& z)
 {
     system_.rightHandSide(theta_, elastic_.force(), q_, b);
     const solverPerformance result = solver.solve(system_, preconditioner_, b, z);
-    system_.enclosed().keepLevel(c_.cloud, z);
+    system_.enclosed().keepLevel(c_.cloud, system_.hydrostatic().fall(), z);
     result.print();
     // measured: steps stay stable with far less reduction than the tolerance, but not without any
     if (!result.converged && !(result.finalResidual < 100 * tolerance_ * result.initialResidual))
@@ -322,7 +323,10 @@ void monolithic::begin(scalar t, scalar dt)
     if (contact_) contact_->find();
     energy_.begin(time_.startPlaces(cloud));
     structureState();
-    system_.hydrostatic().take(cloud, outside_ && outside_->mostlyWet());
+    if (outside_)
+        system_.hydrostatic().take(cloud, outside_->mostlyWet(),
+                                   outside_->level(t, time_.times().pressures));
+    else system_.hydrostatic().take(cloud);
     elasticState();
     setResistance();  // (1.10)
     time_.begin(cloud);

@@ -31,7 +31,15 @@ void outsideWall::find(const fsiCase& c, const solidSurface& surface)
         dict_.fail(dict_.keys().front(),
                    "It acts where neither fluid nor wall is before the solid, and there is no such "
                    "place here. Leave it away");
+    if (pressure_) middle_ = surface.middleOfOpen();
     if (tissue()) mass_ = surfaceMass(surface, *c.structure, c.cloud.uFixed);
+}
+
+std::optional<hydrostaticPart::outerPressure> outsideWall::level(scalar before, scalar during) const
+{
+    if (!pressure_) return std::nullopt;
+    return hydrostaticPart::outerPressure{pressure_->value(before), pressure_->value(during),
+                                          middle_};
 }
 
 solidSurface::pressureAt outsideWall::pressureAt(scalar t, const hydrostaticPart& hydrostatic) const

@@ -189,17 +189,6 @@ scalar solidSurface::missed(const List<vec4>& u, const List<tensor>& dF, scalar 
     });
 }
 
-scalar solidSurface::area(const List<char>& zones) const
-{
-    return sumOf(0, cloud_->nSolid(), [&](label i) {
-        scalar sum = 0;
-        for (const int s : {0, 1})
-            if (const sided& p = part_[s][i]; p.side >= 0 && zones[p.side] && !cloud_->uFixed[i])
-                sum += p.S.norm();
-        return sum;
-    });
-}
-
 void solidSurface::setupParticle(label i, const smoothingKernel& kernel,
                                  const List<tensor>& cofactor)
 {
@@ -317,6 +306,22 @@ std::array<scalar, 2> solidSurface::wetAndOpen() const
         }
         return sum;
     });
+}
+
+vector solidSurface::middleOfOpen() const
+{
+    const auto [area, x, y, z] = sumsOf(0, cloud_->nSolid(), [&](label i) {
+        std::array<scalar, 4> sum = {};
+        for (const int s : {0, 1})
+        {
+            if (cloud_->uFixed[i] || !part_[s][i].outside) continue;
+            const scalar a = areaAtRest(s, i).norm();
+            const vector at = a * (cloud_->x[i].xyz() + part_[s][i].e);
+            sum[0] += a, sum[1] += at[0], sum[2] += at[1], sum[3] += at[2];
+        }
+        return sum;
+    });
+    return vector(x, y, z) / area;
 }
 
 // Calls visit(solid particle, number of its side, neighbour, weight)
