@@ -126,8 +126,11 @@ TEST_CASE("a pressure for each body of fluid loads the solid by its area vectors
         for (label i = 0; i < w.cloud().nSolid(); ++i)
             lacks += w.V() * g[i].xyz(), scale += w.V() * g[i].xyz().norm();
         CHECK((w.free() * lacks).norm() <= rounding * scale);
-        if (w.of.zoneOf == inTheMidst)
-            most = std::max(most, w.areaOfSolid(water).norm() / w.surface.area({0, 0, 1, 0}));
+        if (w.of.zoneOf != inTheMidst) continue;
+        scalar area = 0;
+        for (label k = 0; k < w.cloud().nSolid(); ++k)
+            w.surface.forSides(k, [&](const vector& S, const vector&) { area += S.norm(); });
+        most = std::max(most, w.areaOfSolid(water).norm() / area);
     }
     MESSAGE("area vectors of a block in the midst of fluid add up to " << most << " of its area");
 }

@@ -3,6 +3,7 @@
 #include "patch.H"
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace ispf
@@ -14,6 +15,17 @@ namespace
 bool isPlane(const dictionary& dict)
 {
     return dict.found("surface") && dict.get<word>("surface") == "plane";
+}
+
+// The surface that generateParticles has written for the patch, empty if there is none or if it does not lie in the plane
+triSurface inPlane(const word& caseFolder, const word& name, const dictionary& dict,
+                   const vector& point, const vector& normal, scalar dx)
+{
+    if (!std::filesystem::exists(patchFile(caseFolder, name))) return {};
+    triSurface s = readPatch(caseFolder, name, dict);
+    for (const vector& x : s.nodes)
+        if (std::abs((x - point).dot(normal)) > 1e-3 * dx) return {};
+    return s;
 }
 
 class openPatch : public patch
@@ -76,7 +88,8 @@ private:
     std::unique_ptr<openFace> face_;
 };
 
-// The mesh of the face.  A plane ends at walls, symmetry planes, cyclic sides and other open planes
+// The mesh of the face.  A plane is the surface that generateParticles has written, where it lies in the plane.  Else it ends at
+// walls, symmetry planes, cyclic sides and other open planes
 faceMesh openPatch::meshOf(const patchSetting& s) const
 {
     const auto placeOf = [](const dictionary& dict) {
@@ -89,9 +102,14 @@ faceMesh openPatch::meshOf(const patchSetting& s) const
         if (const dictionary& d = s.patches.subDict(other);
             other != name() && d.get<word>("type") == "open" && isPlane(d))
             ends.push_back(placeOf(d));
-    triSurface surface = isPlane(dict)
-                             ? s.walls.rectangle(placeOf(dict).first, placeOf(dict).second, ends)
-                             : readPatch(s.caseFolder, name(), dict);
+    triSurface surface;
+    if (isPlane(dict))
+    {
+        const auto [point, normal] = placeOf(dict);
+        surface = inPlane(s.caseFolder, name(), dict, point, normal, s.cloud.dx);
+        if (surface.empty()) surface = s.walls.rectangle(point, normal, ends);
+    }
+    else surface = readPatch(s.caseFolder, name(), dict);
     return surface.empty() ? faceMesh() : faceMesh(std::move(surface), s.group, s.cloud);
 }
 

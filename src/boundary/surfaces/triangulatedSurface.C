@@ -193,9 +193,14 @@ vector nonZero(const dictionary& dict, const word& key, const dimensionSet& want
     return v;
 }
 
+word patchFile(const word& caseFolder, const word& patch)
+{
+    return caseFolder + "/constant/triSurface/" + patch + ".stl";
+}
+
 triSurface readPatch(const word& caseFolder, const word& patch, const dictionary& dict)
 {
-    const word path = caseFolder + "/constant/triSurface/" + patch + ".stl";
+    const word path = patchFile(caseFolder, patch);
     if (!std::filesystem::exists(path))
         throw fatalError("Patch " + patch + " needs its surface " + path +
                              ". Write it with generateParticles, or describe the patch by "

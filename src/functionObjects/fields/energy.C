@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Energies and powers of all particles except those beyond open faces, of the whole body
+// Energies and powers of the free particles before open faces, of the whole body
 // [J], [W], in two dimensions per metre:
 //
 //     balance { type energy; }
@@ -122,7 +122,7 @@ private:
         scalar kinetic = 0, potential = 0;
         for (label i = 0; i < cloud.n(); ++i)
         {
-            if (flagged.pFixed[i]) continue;
+            if (!flagged.isFree(i)) continue;
             kinetic += 0.5 * mass * cloud.Up[i].xyz().squaredNorm();
             if (!b.empty()) potential -= mass * b[cloud.zone[i]].dot(cloud.x[i].xyz());
         }
