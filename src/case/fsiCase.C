@@ -3,6 +3,7 @@
 #include "pairViscosity.H"
 
 #include "cloudIO.H"
+#include "cutPlanes.H"
 #include "patchDictionary.H"
 #include "solidFriction.H"
 #include "solidState.H"
@@ -51,6 +52,7 @@ fsiCase::fsiCase(Time& t) : time(t)
 void fsiCase::readBoundary()
 {
     const dictionary patches = readPatchDictionary(caseFolder(), cloud.zones);
+    checkCuts(cloud, patches);
     walls = std::make_unique<boundary>(caseFolder(), patches, cloud, kernel->support(),
                                        time.value(), nu());
     const auto rest = cloud.vectors.find("x0");
@@ -119,6 +121,8 @@ void fsiCase::readBodyForce()
 {
     const dictionary g = dictionary::fromFileIfPresent(time.constantFile("g"));
     const dictionary perZone = physical.subOrEmptyDict("bodyForce");
+    if (perZone.empty() && physical.found("bodyForce"))
+        physical.fail("bodyForce", "It names no zone and has no effect");
     if (g.empty() && perZone.empty()) return;
     const scalar unit = g.found("dimensions") ? g.getUnit("dimensions", dims::acceleration) : 1;
     if (!g.empty()) drives_.push_back({-1, unit, acceleration(g, "value", *this)});

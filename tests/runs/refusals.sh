@@ -226,4 +226,22 @@ says "Warning : kernel WendlandC2 with hByDx 1: this pair is known to blow up"
 echo "kernel cubic; hByDx 1;" > system/sphSchemes
 solved
 grep -q "Warning : kernel" log && fail "warns of a pair that is well"
+
+# ---- entries without effect, and a symmetry plane that the particles were cut at ------------------------
+newCase piston cut
+sed -i 's/min (0 0 0)/min (-0.2 0 0)/' system/particleDict
+echo "middle { type symmetryPlane; point (0 0 0); normal (-1 0 0); }" >> constant/boundary
+place
+setEntry $control endTime 0.01
+solved
+cp constant/boundary withPlane
+sed -i '/^middle/d' constant/boundary
+refused "symmetry plane through \(0 0 0\) with the normal \(-1 0 0\), and no patch lies there"
+echo "again { type symmetryPlane; point (0 0.1 0); normal (-2 0 0); }" >> constant/boundary
+rm -rf 0.01; solved
+echo "bodyForce { }" >> constant/physicalProperties
+refused "It names no zone and has no effect"
+sed -i '/^bodyForce/d' constant/physicalProperties
+echo "functions { most { type minMax; fields (); } }" >> $control
+refused "It names no field and has no effect"
 [ $failures = 0 ]

@@ -77,6 +77,8 @@ List<particleField> fieldsOf(const particleCloud& cloud, const dictionary& dict,
     List<particleField> fields;
     for (const word& name : dict.getOrDefault<List<word>>("fields", defaults))
         fields.emplace_back(cloud, name, dict.where("fields"), c);
+    if (fields.empty() && dict.found("fields"))
+        dict.fail("fields", "It names no field and has no effect");
     return fields;
 }
 

@@ -53,16 +53,18 @@ public:
         checkFamilies(dict, label(x0.size()));
     }
 
-    // Mean of the three moduli of shear between the axes
+    // Voigt's mean over all directions at rest (W. Voigt, Lehrbuch der Kristallphysik, 1910): of the moduli c B
+    // (sum C_ii - sum C_ij + 3 sum G_ij)/15, i < j.  A law that is weak in shear alone is not as soft as its shear
     scalar shearModulus() const override
     {
         scalar sum = 0;
         for (const auto& [i, j] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)})
         {
             const int p = i + 3 * j, q = j + 3 * i;
-            sum += c_ / 4 * (B_(p, p) + B_(q, q) + 2 * B_(p, q));
+            sum +=
+                B_(4 * i, 4 * i) - B_(4 * i, 4 * j) + 0.75 * (B_(p, p) + B_(q, q) + 2 * B_(p, q));
         }
-        return sum / 3;
+        return c_ * sum / 15;
     }
     word description() const override { return name_; }
 

@@ -39,6 +39,16 @@ particleTable emptyTable(const zoneGeometry& geometry, const List<word>& sources
     return table;
 }
 
+// Point and normal of each, six numbers
+word planesText(const zoneGeometry& geometry)
+{
+    List<word> numbers;
+    for (const halfSpace& plane : geometry.symmetryPlanes())
+        for (const vector& v : {plane.point, plane.normal})
+            for (const scalar x : v) numbers.push_back(str(x, 17));
+    return join(numbers);
+}
+
 List<word> patchNames(const zoneGeometry& geometry)
 {
     List<word> names;
@@ -129,6 +139,8 @@ void writeCase(const word& caseFolder, const zoneGeometry& geometry, const place
         names.push_back(z.name), phases.push_back(phaseWord(z));
     particles.attributes["zones"] = join(names);
     particles.attributes["phases"] = join(phases);
+    if (const word planes = planesText(geometry); !planes.empty())
+        particles.attributes["symmetryPlanes"] = planes;
 
     particleTable walls = emptyTable(geometry, sources), sites = walls;
     walls.x = placed.rigid;
