@@ -36,7 +36,8 @@ void enclosedFluid::setup(const solidSurface* surface)
     findBodies(rootOf);
     findLevels();
     const sweptRates swept = c_.walls->swept(c_.cloud);
-    for (const level& l : levels_) refusePush(c_, swept, l.zones);
+    for (const level& l : levels_)
+        if (!l.ofSolid) refusePush(c_, swept, l.zones);
 }
 
 // rootOf: of closedBodies

@@ -352,7 +352,11 @@ word monolithic::attempt(scalar t, scalar dt)
         const scalar lost = elastic_.dissipated(cloud.Up);
         const scalar work = outsideActs() ? outside_->work(cloud, time_.tau()) : 0;
         energy_[energyLedger::springs] -= work + lost;
-        energy_[energyLedger::forces] += work, energy_[energyLedger::viscosity] += lost;
+        energy_[energyLedger::viscosity] += lost;
+        // what the level does outside it undoes at faces or walls, by the same volume
+        const scalar ofLevel = outsideActs() ? outside_->workOfLevel(cloud, time_.tau()) : 0;
+        energy_[energyLedger::forces] += work + ofLevel;
+        energy_[c_.walls->hasOpen() ? energyLedger::faces : energyLedger::walls] -= ofLevel;
     });
     if (const word reason = tooFar(dt, c_.time.adjustTimeStep()); !reason.empty()) return reason;
     sources_.book(dt);                                                            // (5.12), (7.5)

@@ -31,15 +31,15 @@ void outsideWall::find(const fsiCase& c, const solidSurface& surface)
         dict_.fail(dict_.keys().front(),
                    "It acts where neither fluid nor wall is before the solid, and there is no such "
                    "place here. Leave it away");
-    if (pressure_) middle_ = surface.middleOfOpen();
+    if (open_ > 0) middle_ = surface.middleOfOpen();
     if (tissue()) mass_ = surfaceMass(surface, *c.structure, c.cloud.uFixed);
 }
 
 std::optional<hydrostaticPart::outerPressure> outsideWall::level(scalar before, scalar during) const
 {
-    if (!pressure_) return std::nullopt;
-    return hydrostaticPart::outerPressure{pressure_->value(before), pressure_->value(during),
-                                          middle_};
+    if (!(open_ > 0)) return std::nullopt;
+    const auto at = [&](scalar t) { return pressure_ ? pressure_->value(t) : 0; };
+    return hydrostaticPart::outerPressure{at(before), at(during), middle_};
 }
 
 solidSurface::pressureAt outsideWall::pressureAt(scalar t, const hydrostaticPart& hydrostatic) const
@@ -50,30 +50,51 @@ solidSurface::pressureAt outsideWall::pressureAt(scalar t, const hydrostaticPart
     return [given, &hydrostatic](const vector& at) { return given - hydrostatic.at(at); };
 }
 
+// Forces of a pressure on the open surface
+List<vec4> outsideWall::loadOf(const fsiCase& c, const solidSurface& surface,
+                               const solidSurface::pressureAt& p)
+{
+    List<vec4> Q, f;
+    List<tensor> P;
+    surface.outsideLoads(p, Q, P);
+    c.structure->gradient().forces(P, f);
+    forEach(0, label(f.size()), [&](label i) {
+        f[i].s -= Q[i].s;
+        if (c.cloud.uFixed[i]) f[i] = vec4{};
+        f[i][3] = 0;
+    });
+    return f;
+}
+
 void outsideWall::setStep(const fsiCase& c, const solidSurface& surface,
                           const hydrostaticPart& hydrostatic, const start& s)
 {
     const particleCloud& cloud = c.cloud;
-    List<vec4> Q;
-    List<tensor> P;
-    surface.outsideLoads(pressureAt(s.pressures, hydrostatic), Q, P);
-    c.structure->gradient().forces(P, force_);
+    force_ = loadOf(c, surface, pressureAt(s.pressures, hydrostatic));
+    ofLevel_.clear();
+    if (const scalar level = hydrostatic.level(); level != 0)
+        ofLevel_ = loadOf(c, surface, [level](const vector&) { return level; });
+    if (!tissue()) return;
     const label n = cloud.nSolid();
-    List<vec4> way(tissue() ? n : 0), pull(n);
-    if (tissue())
-    {
-        const List<vec4>& rest = cloud.vectors.at("x0");
-        forEach(0, n, [&](label i) { way[i].s = s.x[i].s - rest[i].s; });
-        mass_.apply(way, pull);
-        // the spring's force at the end of the step is that at its start less tau times its stiffness times u
-        resists_ = mass_.withZeros();
-        resists_.addScaled(damping_ + s.tau * stiffness_, mass_);
-    }
+    List<vec4> way(n), pull(n);
+    const List<vec4>& rest = cloud.vectors.at("x0");
+    forEach(0, n, [&](label i) { way[i].s = s.x[i].s - rest[i].s; });
+    mass_.apply(way, pull);
+    // the spring's force at the end of the step is that at its start less tau times its stiffness times u
+    resists_ = mass_.withZeros();
+    resists_.addScaled(damping_ + s.tau * stiffness_, mass_);
     forEach(0, n, [&](label i) {
-        force_[i].s -= Q[i].s + stiffness_ * pull[i].s;
-        if (cloud.uFixed[i]) force_[i] = vec4{};
+        if (cloud.uFixed[i]) return;
+        force_[i].s -= stiffness_ * pull[i].s;
         force_[i][3] = 0;
     });
+}
+
+scalar outsideWall::workOfLevel(const particleCloud& cloud, scalar tau) const
+{
+    return tau * sumOf(0, label(ofLevel_.size()), [&](label i) -> scalar {
+               return cloud.isFree(i) ? cloud.Up[i].xyz().dot(ofLevel_[i].xyz()) : 0;
+           });
 }
 
 scalar outsideWall::work(const particleCloud& cloud, scalar tau) const
