@@ -14,6 +14,7 @@
 #include "fibres.H"
 #include "isochoricLaw.H"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -53,18 +54,18 @@ public:
         checkFamilies(dict, label(x0.size()));
     }
 
-    // Voigt's mean over all directions at rest (W. Voigt, Lehrbuch der Kristallphysik, 1910): of the moduli c B
-    // (sum C_ii - sum C_ij + 3 sum G_ij)/15, i < j.  A law that is weak in shear alone is not as soft as its shear
+    // Largest at rest of the shears between two axes, and of those along their bisectors, (C_ii + C_jj - 2 C_ij)/4: the control of
+    // (5.20) has to hold particles against the stiffest of them.  A law may be weak in shear and stiff along its axes
     scalar shearModulus() const override
     {
-        scalar sum = 0;
+        scalar most = 0;
         for (const auto& [i, j] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)})
         {
             const int p = i + 3 * j, q = j + 3 * i;
-            sum +=
-                B_(4 * i, 4 * i) - B_(4 * i, 4 * j) + 0.75 * (B_(p, p) + B_(q, q) + 2 * B_(p, q));
+            most = std::max({most, B_(p, p) + B_(q, q) + 2 * B_(p, q),
+                             B_(4 * i, 4 * i) + B_(4 * j, 4 * j) - 2 * B_(4 * i, 4 * j)});
         }
-        return c_ * sum / 15;
+        return c_ * most / 4;
     }
     word description() const override { return name_; }
 
