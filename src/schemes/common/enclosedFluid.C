@@ -23,7 +23,10 @@ enclosedFluid::enclosedFluid(const fsiCase& c) : c_(c)
     label n = 0;  // each particle leads to the first of its solid
     for (label i = 0; i < label(solidOf_.size()); ++i)
         solidOf_[i] = solidOf_[i] == i ? n++ : solidOf_[solidOf_[i]];
-    levelOfSolid_.assign(n, -1);
+    levelOfSolid_.assign(n, -1), free_.assign(n, 0);
+    for (const label s : solidOf_) ++free_[s];
+    for (label i = 0; i < label(solidOf_.size()); ++i)
+        if (c.structure->reference().fixed[i]) free_[solidOf_[i]] = 0;
 }
 
 void enclosedFluid::setup(const solidSurface* surface)
@@ -31,10 +34,9 @@ void enclosedFluid::setup(const solidSurface* surface)
     surface_ = surface;
     bodies_.clear(), levels_.clear(), bodyOf_.assign(c_.cloud.zones.size(), -1);
     std::fill(levelOfSolid_.begin(), levelOfSolid_.end(), -1);
-    const List<label> rootOf = closedBodies(c_.cloud, c_.list);
-    if (std::all_of(rootOf.begin(), rootOf.end(), [](label r) { return r < 0; })) return;
-    findBodies(rootOf);
+    findBodies(closedBodies(c_.cloud, c_.list));
     findLevels();
+    if (bodies_.empty()) return;
     const sweptRates swept = c_.walls->swept(c_.cloud);
     for (const level& l : levels_)
         if (!l.ofSolid) refusePush(c_, swept, l.zones);
@@ -43,6 +45,7 @@ void enclosedFluid::setup(const solidSurface* surface)
 // rootOf: of closedBodies
 void enclosedFluid::findBodies(const List<label>& rootOf)
 {
+    if (std::all_of(rootOf.begin(), rootOf.end(), [](label r) { return r < 0; })) return;
     const particleCloud& cloud = c_.cloud;
     const label nz = label(rootOf.size());
     const List<scalar> count =
@@ -64,19 +67,22 @@ void enclosedFluid::findBodies(const List<label>& rootOf)
 }
 
 // Joins the bodies that the free part of one solid lies between, and joins with `given` those whose solid reaches an open surface,
-// or fluid with a given pressure.  Each set without it has a free level
+// or fluid with a given pressure.  Each set without it has a free level.  So has a solid without sides and clamps, which fills a
+// periodic space
 void enclosedFluid::findLevels()
 {
     const label given = label(bodies_.size()), nSolids = label(levelOfSolid_.size());
     List<label> set(given + 1 + nSolids);
     std::iota(set.begin(), set.end(), 0);
+    List<char> sided(nSolids, 0);
     const auto nodeOf = [&](label zone) {
         return zone >= 0 && bodyOf_[zone] >= 0 ? bodyOf_[zone] : given;
     };
     for (label k = 0; surface_ && k < c_.cloud.nSolid(); ++k)
         if (!c_.cloud.uFixed[k])
-            surface_->forZonesBefore(
-                k, [&](label zone) { join(set, nodeOf(zone), given + 1 + solidOf_[k]); });
+            surface_->forZonesBefore(k, [&](label zone) {
+                join(set, nodeOf(zone), given + 1 + solidOf_[k]), sided[solidOf_[k]] = 1;
+            });
 
     List<label> number(set.size(), -1);  // of the level of each set
     const auto numberOf = [&](label node) { return number[representative(set, node)]; };
@@ -94,6 +100,9 @@ void enclosedFluid::findLevels()
     {
         levelOfSolid_[s] = numberOf(given + 1 + s);
         if (levelOfSolid_[s] >= 0) levels_[levelOfSolid_[s]].ofSolid = true;
+        if (!surface_ || sided[s] || free_[s] == 0) continue;
+        levelOfSolid_[s] = label(levels_.size());
+        levels_.push_back({.zones = {}, .n = free_[s], .ofSolid = true, .alone = true});
     }
 }
 
@@ -164,17 +173,18 @@ void enclosedFluid::state::write(particleCloud& cloud) const
     cloud.state.set(entries::divergenceDefect, kept);
 }
 
-// Mean of value(i) over the fluid of each level
+// Mean of value(i) over the fluid of each level, over the solid of one without fluid
 template <class Value>
 List<scalar> enclosedFluid::means(Value&& value) const
 {
-    const label nSolid = c_.cloud.nSolid(), n = label(levels_.size());
-    List<scalar> sums =
-        blockSums(c_.cloud.n() - nSolid, n, [&](label begin, label end, scalar* of) {
-            std::fill_n(of, n, 0);
-            for (label i = nSolid + begin; i < nSolid + end; ++i)
-                if (const label l = levelOf(i); l >= 0) of[l] += value(i);
-        });
+    const bool alone =
+        std::any_of(levels_.begin(), levels_.end(), [](const level& l) { return l.alone; });
+    const label first = alone ? 0 : c_.cloud.nSolid(), n = label(levels_.size());
+    List<scalar> sums = blockSums(c_.cloud.n() - first, n, [&](label begin, label end, scalar* of) {
+        std::fill_n(of, n, 0);
+        for (label i = first + begin; i < first + end; ++i)
+            if (const label l = levelOf(i); l >= 0 && counts(i, l)) of[l] += value(i);
+    });
     for (label l = 0; l < n; ++l) sums[l] /= levels_[l].n;
     return sums;
 }
@@ -203,8 +213,8 @@ void enclosedFluid::balance(List<scalar>& rows) const
     if (levels_.empty()) return;
     const particleCloud& cloud = c_.cloud;
     const List<scalar> mean = means([&](label i) { return rows[4 * i + 3]; });
-    forEach(cloud.nSolid(), cloud.n(), [&](label i) {
-        if (const label l = levelOf(i); l >= 0) rows[4 * i + 3] -= mean[l];
+    forEach(0, cloud.n(), [&](label i) {
+        if (const label l = levelOf(i); l >= 0 && counts(i, l)) rows[4 * i + 3] -= mean[l];
     });
 }
 
