@@ -168,7 +168,7 @@ List<loadedBody::triangulation> loadedBody::lasting() const
         if (!p.tracked) s = carried(all.size(), s);
         const List<facet> facets = trianglesOf(s, case_->cloud.nDims);
         const surfaceFit fit(*case_, p.zones, facets);
-        all.push_back({{facets, fit.of(facets)}, std::move(s)});
+        all.push_back({{facets, fit.of(facets, stickingTo(s))}, std::move(s)});
     });
     return all;
 }
@@ -196,6 +196,18 @@ triSurface loadedBody::carried(size_t side, const triSurface& now) const
     const tensor R = frameOf(now, t) * frameOf(then, t).transpose();
     for (vector& x : s.nodes) x = now.corner(t, 0) + R * (x - then.corner(t, 0));
     return s;
+}
+
+// Per triangle of a wall that the fluid sticks to; else empty.  The velocity of a solid's surface is known no better than that of
+// the fluid there
+List<vector> loadedBody::stickingTo(const triSurface& s) const
+{
+    List<vector> U;
+    const List<word> sticky = case_->walls->noSlipWalls();
+    if (isWall_ && std::find(sticky.begin(), sticky.end(), name_) != sticky.end())
+        for (label t = 0; t < s.size(); ++t)
+            U.push_back(case_->walls->wallVelocity(name_, s.centre(t)));
+    return U;
 }
 
 tensor viscousStress(const fluidAt& f, const fsiCase& c)

@@ -76,17 +76,23 @@ surfaceFit::surfaceFit(const fsiCase& c, const List<char>& zones, const List<fac
 
 List<fluidAt> surfaceFit::of(const List<facet>& facets) const
 {
+    return of(facets, {});
+}
+
+List<fluidAt> surfaceFit::of(const List<facet>& facets, const List<vector>& wallVelocity) const
+{
     List<fluidAt> result(facets.size());
     parallelFor(
         label(facets.size()),
         [&](label begin, label end) {
-            for (label k = begin; k < end; ++k) result[k] = fit(facets[k]);
+            for (label k = begin; k < end; ++k)
+                result[k] = fit(facets[k], wallVelocity.empty() ? nullptr : &wallVelocity[k]);
         },
         16);
     return result;
 }
 
-fluidAt surfaceFit::fit(const facet& f) const
+fluidAt surfaceFit::fit(const facet& f, const vector* wallVelocity) const
 {
     const vector n = f.area.normalized();
     List<neighbour> near;
@@ -99,15 +105,18 @@ fluidAt surfaceFit::fit(const facet& f) const
         nearest = std::min(nearest, r);
     });
     fluidAt result;
-    result.covered = nearest < farthest * dx_ &&
-                     (nDims_ == 2 ? solve<6>(near, result) || solve<3>(near, result)
-                                  : solve<10>(near, result) || solve<4>(near, result));
+    result.covered =
+        nearest < farthest * dx_ &&
+        (nDims_ == 2
+             ? solve<6>(near, wallVelocity, result) || solve<3>(near, wallVelocity, result)
+             : solve<10>(near, wallVelocity, result) || solve<4>(near, wallVelocity, result));
     return result;
 }
 
 // False if the particles do not determine all coefficients
 template <int nColumns>
-bool surfaceFit::solve(const List<neighbour>& near, fluidAt& result) const
+bool surfaceFit::solve(const List<neighbour>& near, const vector* wallVelocity,
+                       fluidAt& result) const
 {
     Eigen::Matrix<scalar, nColumns, nColumns> A = Eigen::Matrix<scalar, nColumns, nColumns>::Zero();
     Eigen::Matrix<scalar, nColumns, 4> c = Eigen::Matrix<scalar, nColumns, 4>::Zero();
@@ -119,10 +128,24 @@ bool surfaceFit::solve(const List<neighbour>& near, fluidAt& result) const
         c.noalias() += mw * Eigen::RowVector4d(up[0], up[1], up[2], up[3]);
     }
     if (label(near.size()) < nColumns) return false;
+    const auto all = A;
+    const auto sums = c;
     if (!eliminate<nColumns>(A, c)) return false;
     result.U = c.row(0).template head<3>().transpose(), result.p = c(0, 3);
+    Eigen::Matrix<scalar, nColumns - 1, 4> slopes = c.template bottomRows<nColumns - 1>();
+    if (wallVelocity)
+    {
+        // the constant is known: its column moves to the right side, and its row is left out
+        result.U = *wallVelocity;
+        const Eigen::RowVector4d known(result.U[0], result.U[1], result.U[2], 0);
+        Eigen::Matrix<scalar, nColumns - 1, nColumns - 1> rest =
+            all.template bottomRightCorner<nColumns - 1, nColumns - 1>();
+        slopes = sums.template bottomRows<nColumns - 1>() -
+                 all.col(0).template tail<nColumns - 1>() * known;
+        if (!eliminate<nColumns - 1>(rest, slopes)) return false;
+    }
     for (int a = 0; a < 3; ++a)
-        for (int d = 0; d < nDims_; ++d) result.gradU(a, d) = c(d + 1, a) / (reach * dx_);
+        for (int d = 0; d < nDims_; ++d) result.gradU(a, d) = slopes(d, a) / (reach * dx_);
     return true;
 }
 

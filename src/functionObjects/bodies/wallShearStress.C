@@ -10,7 +10,8 @@
 //     RRT                 1/((1 - 2 OSI) TAWSS) = T/|int tau dt| [1/Pa]
 //
 // (He & Ku 1996, J. Biomech. Eng. 118; Himburg et al. 2004, Ann. Biomed. Eng. 32).  The integrals begin at `start` [s] and
-// have the value of each step's end.  The sum of the solver's pairs per triangle scatters by more than its value.
+// have the value of each step's end.  On walls the fit passes through the wall's velocity; on solids it is free.  The sum of the solver's pairs per triangle scatters by more than
+// its value.
 // A triangle without particles before it has `covered` 0 and zeros; it does not count in means and integrals.
 #include "functionObject.H"
 
