@@ -17,11 +17,12 @@ void checkCuts(const particleCloud& cloud, const dictionary& patches)
     {
         const auto liesThere = [&](const word& name) {
             const dictionary& d = patches.subDict(name);
-            const word across = d.found("separation") ? "separation" : "normal";
-            if (!d.found("point") || !d.found(across)) return false;
-            const dimensionSet& dims = d.found("separation") ? dims::length : dims::none;
-            const vector at = d.get<vector>("point", dims::length), n = d.get<vector>(across, dims);
-            const vector beyond = d.found("separation") ? vector(at + n) : at;
+            const bool cyclic = d.found("separation");
+            if (!d.found("point") || !(cyclic || d.found("normal"))) return false;
+            const vector at = d.get<vector>("point", dims::length),
+                         n = cyclic ? d.get<vector>("separation", dims::length)
+                                    : d.get<vector>("normal"),
+                         beyond = cyclic ? vector(at + n) : at;
             return n.cross(normal).norm() < 1e-6 * n.norm() &&
                    std::min(std::abs((at - point).dot(normal)),
                             std::abs((beyond - point).dot(normal))) < 1e-3 * cloud.dx;

@@ -37,7 +37,7 @@ const home homes[] = {
     {"functionObjects/bodies/surfaceLeaks", "d", "boundary"},
     {"functionObjects/list/functionObjectList", "c.time.controlDict\\(\\)", "functions"},
     {"functionObjects", "", "functions"},
-    {"boundary/", "", "boundary"},
+    {"boundary/|case/cutPlanes", "", "boundary"},
     {"solid/", "", "structureProperties"},
     {"linearSolvers|operators/\\w+/(adjointPair|density|particleSh)", "", "sphSolution"},
     {"case/fsiCase|common/timeScheme", ".*schemes", "sphSchemes"},
