@@ -77,7 +77,7 @@ List<particleField> fieldsOf(const particleCloud& cloud, const dictionary& dict,
     List<particleField> fields;
     for (const word& name : dict.getOrDefault<List<word>>("fields", defaults))
         fields.emplace_back(cloud, name, dict.where("fields"), c);
-    if (fields.empty() && dict.found("fields"))
+    if (fields.empty() && !defaults.empty())
         dict.fail("fields", "It names no field and has no effect");
     return fields;
 }
