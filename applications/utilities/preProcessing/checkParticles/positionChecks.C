@@ -2,6 +2,7 @@
 #include "checks.H"
 
 #include "cellList.H"
+#include "patchSurface.H"
 #include "surfaceSearch.H"
 #include "trackedSurface.H"
 #include "wallLayers.H"
@@ -209,7 +210,7 @@ void checkSides(const fsiCase& c, findings& found)
         {
             const word name = solid.name + "_to_" + fluid.name;
             if (solid.phase == phaseType::solid && fluid.phase == phaseType::fluid &&
-                std::filesystem::exists(c.caseFolder() + "/constant/triSurface/" + name + ".stl"))
+                std::filesystem::exists(patchFile(c.caseFolder(), name)))
                 checkSurface(c, name, c.cloud.zoneIndex(fluid.name), found);
         }
 }
