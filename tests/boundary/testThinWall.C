@@ -324,9 +324,11 @@ TEST_CASE(
         List<vector> from, u, to;
         for (label i = 0; i < s.cloud.n(); ++i)
         {
+            vector shift = 0.05 * dx * any();
             from.push_back(s.cloud.x[i].xyz()), u.push_back(0.5 * dx * any()),
-                to.push_back(from[i] + 0.05 * dx * any());
-            s.cloud.x[i].setXyz(to[i]), s.cloud.Up[i].setXyz(u[i]);
+                to.push_back(from[i] + shift);
+            s.walls->limitShift(s.cloud, i, gap, shift);
+            s.cloud.x[i].setXyz(from[i] + shift), s.cloud.Up[i].setXyz(u[i]);
         }
         s.walls->limitApproach(s.cloud, gap, 1);
         for (label i = 0; i < s.cloud.n(); ++i)

@@ -29,10 +29,10 @@ periodicBox disordered(const vector& drift = vector::Zero())
 }
 
 scalar shift(particleCloud& cloud, const neighbourList& list, const kernelCorrection& B,
-             const word& entries, const std::function<bool(label)>& leaveAlone = nullptr)
+             const word& entries, const std::function<void(label, vector&)>& confine = nullptr)
 {
     const particleShifting shifting(dictionary::fromString(entries));
-    return shifting.shift(cloud, list, B, 0.01, noLimit, leaveAlone);
+    return shifting.shift(cloud, list, B, 0.01, noLimit, confine);
 }
 
 // Places of the particles after shifting
@@ -133,7 +133,10 @@ TEST_CASE("a particle moves by maxShift at most, and not at all if it is to be l
         periodicBox box = disordered();
         const List<vec4> x = box.cloud.x, Up = box.cloud.Up;
         const auto leftAlone = [](label i) { return i % 3 == 0; };
-        shift(box.cloud, box.list, box.B, "constant 1; maxShift " + str(most) + ";", leftAlone);
+        const auto confine = [&](label i, vector& dr) {
+            if (leftAlone(i)) dr.setZero();
+        };
+        shift(box.cloud, box.list, box.B, "constant 1; maxShift " + str(most) + ";", confine);
         scalar way = 0;
         for (label i = 0; i < box.cloud.n(); ++i)
             if (leftAlone(i))

@@ -134,6 +134,12 @@ vector boundary::wayOverCyclic(const vector& x) const
     return content_->group.wayOverCyclic(x);
 }
 
+void boundary::limitShift(const particleCloud& cloud, label i, scalar gap, vector& dr) const
+{
+    if (nearOpen(i)) dr.setZero();
+    if (!dr.isZero(0)) content_->guard.limitShift(cloud, content_->walls, i, gap, dr);
+}
+
 void boundary::limitApproach(particleCloud& cloud, scalar gap, scalar dt) const
 {
     if (!content_->walls.empty()) content_->guard.limitApproach(cloud, content_->walls, gap, dt);

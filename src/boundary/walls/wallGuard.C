@@ -55,14 +55,16 @@ struct approaching
 
     bool finds(const surfaceFoot& f) const { return f.found && (f.aside == 0 || inStrip); }
 
-    // The shift from the last trusted place may come no nearer to the surface than the gap, (8.36)
-    void limitShift(vector& x, const vector& seen) const
+    // The shift dr from x may lead no nearer to the surface than the gap, (8.36).  True if it has changed
+    bool limitShift(const vector& x, vector& dr) const
     {
-        const surfaceFoot f = body.surface->find(frame.toBody(x));
-        if (!finds(f) || !(f.depth > -gap)) return;
-        const surfaceFoot before = body.surface->find(frame.toBody(seen));
+        const surfaceFoot f = body.surface->find(frame.toBody(x + dr));
+        if (!finds(f) || !(f.depth > -gap)) return false;
+        const surfaceFoot before = body.surface->find(frame.toBody(x));
         const scalar most = finds(before) ? std::max(before.depth, -gap) : -gap;
-        if (f.depth > most) x -= (f.depth - most) * frame.turn(f.normal);
+        if (!(f.depth > most)) return false;
+        dr -= (f.depth - most) * frame.turn(f.normal);
+        return true;
     }
     // The same for the velocity: tested at the tangent plane of the foot, then at the place after the step.  True if u has
     // changed
@@ -137,17 +139,34 @@ List<label> wallGuard::apply(particleCloud& cloud, const wallSet& walls) const
     return pushed;
 }
 
+void wallGuard::limitShift(const particleCloud& cloud, const wallSet& walls, label i, scalar gap,
+                           vector& dr) const
+{
+    const vector before = cloud.x[i].xyz();
+    bool again = true;
+    for (int pass = 0; pass < passes && again; ++pass)
+    {
+        again = false;
+        for (const wallSet::body& body : walls.bodies())
+        {
+            const bodyFrame& frame = walls.frame(body);
+            if (body.surface->surelyFar(frame.toBody(before + dr))) continue;
+            const approaching a{body, frame, walls.walls(), gap, 0, cloud.beyondOpen(i)};
+            again = a.limitShift(before, dr) || again;
+        }
+    }
+}
+
 void wallGuard::limitApproach(particleCloud& cloud, const wallSet& walls, scalar gap,
                               scalar dt) const
 {
     const label first = cloud.nSolid(), n = cloud.n() - first;
-    const auto field = cloud.vectors.find(seenField);
-    const bool hasSeen = field != cloud.vectors.end();
     parallelFor(n, [&](label begin, label end) {
         for (label i = first + begin; i < first + end; ++i)
         {
             if (cloud.uFixed[i]) continue;
-            vector x = cloud.x[i].xyz(), u = cloud.Up[i].xyz();
+            const vector x = cloud.x[i].xyz();
+            vector u = cloud.Up[i].xyz();
             bool again = true;
             for (int pass = 0; pass < passes && again; ++pass)
             {
@@ -159,11 +178,10 @@ void wallGuard::limitApproach(particleCloud& cloud, const wallSet& walls, scalar
                         body.surface->surelyFar(frame.toBody(x + dt * u)))
                         continue;
                     const approaching a{body, frame, walls.walls(), gap, dt, cloud.beyondOpen(i)};
-                    if (hasSeen) a.limitShift(x, field->second[i].xyz());
                     again = a.limitVelocity(x, u) || again;
                 }
             }
-            cloud.x[i].setXyz(x), cloud.Up[i].setXyz(u);
+            cloud.Up[i].setXyz(u);
         }
     });
 }

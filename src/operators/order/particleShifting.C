@@ -175,7 +175,7 @@ void balance(const particleCloud& cloud, List<vector>& v)
 
 scalar particleShifting::shift(particleCloud& cloud, const neighbourList& list,
                                const kernelCorrection& correction, scalar dt, scalar allowance,
-                               const std::function<bool(label)>& leaveAlone) const
+                               const std::function<void(label, vector&)>& confine) const
 {
     const scalar way = speed(cloud) * dt, dx = cloud.dx, most = maxShift_ * dx;
     if (!on() || !(way > 0)) return 0;
@@ -191,10 +191,11 @@ scalar particleShifting::shift(particleCloud& cloud, const neighbourList& list,
         for (label k = begin; k < end; ++k)
         {
             const label i = first + k;
-            if (rowOf<among::all>(list, i).size() == 0 || (leaveAlone && leaveAlone(i))) continue;
+            if (rowOf<among::all>(list, i).size() == 0) continue;
             vector dr = alpha * crowding(cloud, list, i) - beta * slopeOfSum(cloud, list, i);
             if (first > 0) keepOff(cloud, list, i, closestToSolid() * dx, std::min(way, most), dr);
             if (const scalar size = dr.norm(); size > most) dr *= most / size;
+            if (confine) confine(i, dr);
             shifts[k] = dr, v[k] = limitedChange(cloud, list, correction.same[i], i, dr);
         }
     });

@@ -205,10 +205,11 @@ couplingScheme::stepLimit couplingScheme::adjusted(const stepLimit& own) const
 void couplingScheme::shift(const particleShifting& shifting, scalar dt)
 {
     energy_.shifts([&] {
-        shifting.shift(c_.cloud, c_.list, c_.correction, dt, energy_.taken(),
-                       [&](label i) { return c_.walls->nearOpen(i); });
-        toSolid_.clear();
         const scalar closest = shifting.on() ? shifting.closest() * c_.cloud.dx : 0;
+        shifting.shift(
+            c_.cloud, c_.list, c_.correction, dt, energy_.taken(),
+            [&](label i, vector& dr) { c_.walls->limitShift(c_.cloud, i, 0.5 * closest, dr); });
+        toSolid_.clear();
         if (closest > 0)
         {
             limitApproach(c_.cloud, c_.list, closest, shifting.closestToSolid() * c_.cloud.dx, dt,
