@@ -60,9 +60,15 @@ void setVelocity(particleCloud& cloud, const Velocity& u)
 
 }  // namespace
 
-TEST_CASE("Couette and Poiseuille flow: the exact stress on both walls, along the flow")
+TEST_CASE(
+    "Couette flow: the exact stress on both walls, along the flow; in any, the friction of "
+    "`forces`")
 {
     channel t;
+    t.functions +=
+        "f { type forces; patches (floor lid); writeControl timeStep; writePrecision 12; }"
+        "v { type surfaceFieldValue; patches (floor); fields (wallShearStress); operation "
+        "areaIntegrate; writeControl timeStep; writePrecision 12; }";
     auto r = t.start();
     functionObjectList f(*r.c);
     setVelocity(r.c->cloud, [](const vector& x) { return vector(x[2] / side, 0, 0); });
@@ -71,18 +77,20 @@ TEST_CASE("Couette and Poiseuille flow: the exact stress on both walls, along th
     {
         const List<scalar> row = t.rows("w/0/" + wall + ".dat").front();
         CHECK(row[1] == relative(mu / side, 1e-9));
-        CHECK(row[2] == relative(mu / side, 1e-9));
+        CHECK(row[2] == relative(mu / side, 0.01));
         CHECK(row[8] == relative(7, 1e-9));
         CHECK(row[9] == 1);
     }
-    CHECK(t.field("w/0/floor.vtk", "wallShearStress", 3)[0] == relative(mu / side, 1e-9));
-    CHECK(t.field("w/0/lid.vtk", "wallShearStress", 3)[0] == relative(-mu / side, 1e-9));
+    CHECK(t.field("w/0/floor.vtk", "wallShearStress", 3)[0] == relative(mu / side, 0.01));
+    CHECK(t.field("w/0/lid.vtk", "wallShearStress", 3)[0] == relative(-mu / side, 0.01));
     setVelocity(r.c->cloud, [](const vector& x) {
         return vector(1e4 * x[2] * (side - x[2]) + x[2] / side, 0, 0);
     });
     f.start();
-    CHECK(t.rows("w/0/floor.dat").back()[1] == relative(mu * (1e4 * side + 1 / side), 1e-9));
-    // fluid that slips along the floor: the fit keeps the floor's velocity and is steeper
+    const scalar viscous = t.rows("f/0/force_floor.dat").back()[7];
+    CHECK(t.rows("w/0/floor.dat").back()[1] == relative(viscous / (side * side), 1e-9));
+    CHECK(t.rows("v/0/surfaceFieldValue.dat").back()[1] == relative(viscous, 1e-9));
+    // fluid that slips along the floor is steeper there
     setVelocity(r.c->cloud, [](const vector& x) { return vector(0.1 + x[2] / side, 0, 0); });
     f.start();
     CHECK(t.rows("w/0/floor.dat").back()[1] > 1.1 * mu / side);
@@ -111,10 +119,11 @@ TEST_CASE("flow that reverses: TAWSS, OSI and RRT by hand, also continued from t
         CHECK(row[1] == relative(mu * 50, 1e-6));
         CHECK(row[3] == relative(mu * size / 4, 1e-6));
         CHECK(row[5] == relative(0.5 * (1 - sum / size), 1e-6));
-        CHECK(row[7] == relative(4 / (mu * sum), 1e-6));
+        // of a single triangle
+        CHECK(row[7] == relative(4 / (mu * sum), 0.01));
         CHECK(t.field("w/0.4/floor.vtk", "OSI", 1)[0] == relative(0.5 * (1 - sum / size), 1e-6));
-        CHECK(t.field("w/0.4/floor.vtk", "TAWSS", 1)[0] == relative(mu * size / 4, 1e-6));
-        CHECK(t.field("w/0.4/floor.vtk", "RRT", 1)[0] == relative(4 / (mu * sum), 1e-6));
+        CHECK(t.field("w/0.4/floor.vtk", "TAWSS", 1)[0] == relative(mu * size / 4, 0.01));
+        CHECK(t.field("w/0.4/floor.vtk", "RRT", 1)[0] == relative(4 / (mu * sum), 0.01));
     }
 }
 
@@ -136,7 +145,7 @@ TEST_CASE("the history begins at `start`, with the part of the step after it")
     CHECK(t.rows("w/0/floor.dat").back()[3] == relative(mu * (0.5 * 300 + 200) / 1.5, 1e-6));
 }
 
-TEST_CASE("Poiseuille flow in a pipe of 10 spacings: rms over the triangles within 3 %")
+TEST_CASE("Poiseuille flow in a pipe of 10 spacings: rms over the triangles within 1 %")
 {
     const scalar R = 10e-3, length = 6e-3, peak = 1;
     channel t;
@@ -172,7 +181,7 @@ TEST_CASE("Poiseuille flow in a pipe of 10 spacings: rms over the triangles with
     const scalar exact = 2 * mu * peak / R;
     for (size_t k = 0; k < n; ++k) squares += std::pow(tau[3 * k + 2] / exact - 1, 2) / scalar(n);
     MESSAGE("rms over the triangles: " << 100 * std::sqrt(squares) << " %");
-    CHECK(std::sqrt(squares) < 0.03);
+    CHECK(std::sqrt(squares) < 0.01);
 }
 
 TEST_CASE("a wall that moves keeps its triangles; bodies that are none are refused")

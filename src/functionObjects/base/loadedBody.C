@@ -217,10 +217,4 @@ tensor viscousStress(const fluidAt& f, const fsiCase& c)
     return c.mu * (c.viscosity ? c.viscosity->ratio(rate) : 1) * twiceD;
 }
 
-vector shearOn(const vector& n, const fluidAt& f, const fsiCase& c)
-{
-    const vector traction = -viscousStress(f, c) * n;
-    return traction - traction.dot(n) * n;
-}
-
 }  // namespace ispf

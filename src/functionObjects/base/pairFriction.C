@@ -138,25 +138,48 @@ pairFriction::pairFriction(const fsiCase& c)
 pairFriction::pairFriction(const fsiCase& c, const presentState& s)
 {
     const particleCloud& cloud = s.cloud;
-    const pairSum sum(c, s);
+    const pairSum pairs(c, s);
+    const label nBodies = pairs.bodies().n();
     constexpr label block = 4096;  // summed in their order: the same for any number of threads
-    List<List<load>> perBlock((cloud.n() + block - 1) / block, List<load>(sum.bodies().n()));
+    List<List<sum>> perBlock((cloud.n() + block - 1) / block, List<sum>(nBodies));
     parallelFor(
         label(perBlock.size()),
         [&](label begin, label end) {
+            List<load> one(nBodies);
             for (label b = begin; b < end; ++b)
                 for (label i = std::max(b * block, cloud.nSolid());
                      i < std::min((b + 1) * block, cloud.n()); ++i)
-                    if (!cloud.beyondOpen(i)) sum.add(i, perBlock[b]);
+                {
+                    if (cloud.beyondOpen(i)) continue;
+                    pairs.add(i, one);
+                    for (label k = 0; k < nBodies; ++k)
+                        if (!one[k].force.isZero(0))
+                        {
+                            perBlock[b][k].total.add(one[k]);
+                            perBlock[b][k].shares.push_back({cloud.x[i].xyz(), one[k].force});
+                            one[k] = {};
+                        }
+                }
         },
         1);
-    const List<word>& walls = sum.bodies().walls();
-    for (label k = 0; k < sum.bodies().n(); ++k)
+    const List<word>& walls = pairs.bodies().walls();
+    for (label k = 0; k < nBodies; ++k)
     {
         const label zone = k - label(walls.size());
-        load& total = zone < 0 ? walls_[walls[k]] : zones_[cloud.zones[zone].name];
-        for (const List<load>& part : perBlock) total.add(part[k]);
+        sum& body = zone < 0 ? walls_[walls[k]] : zones_[cloud.zones[zone].name];
+        for (const List<sum>& part : perBlock)
+        {
+            body.total.add(part[k].total);
+            body.shares.insert(body.shares.end(), part[k].shares.begin(), part[k].shares.end());
+        }
     }
+}
+
+const List<pairFriction::share>* pairFriction::sharesOf(const loadedBody& body) const
+{
+    const auto& bodies = body.isWall() ? walls_ : zones_;
+    const auto found = bodies.find(body.name());
+    return found != bodies.end() ? &found->second.shares : nullptr;
 }
 
 tensor pairFriction::turnOf(const word& wall, const fsiCase& c)

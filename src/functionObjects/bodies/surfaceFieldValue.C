@@ -13,7 +13,7 @@
 #include "functionObject.H"
 
 #include "dataFile.H"
-#include "loadedBody.H"
+#include "wallShear.H"
 
 #include <algorithm>
 #include <cmath>
@@ -42,9 +42,17 @@ public:
     {
         List<vector> result(fields_.size(), vector::Constant(start()));
         scalar covered = 0, whole = 0;
+        const bool shears =
+            std::find(fields_.begin(), fields_.end(), "wallShearStress") != fields_.end();
+        const auto friction = shears ? std::make_unique<pairFriction>(case_) : nullptr;
         for (const loadedBody& b : bodies_)
-            for (const loadedBody::side& s : b.sides())
-                for (size_t k = 0; k < s.facets.size(); ++k)
+        {
+            const List<loadedBody::side> sides = b.sides();
+            const List<vector> tau =
+                shears ? wallShear(b, sides, case_, *friction) : List<vector>();
+            size_t n = 0;
+            for (const loadedBody::side& s : sides)
+                for (size_t k = 0; k < s.facets.size(); ++k, ++n)
                 {
                     const scalar area = s.facets[k].area.norm();
                     whole += area;
@@ -52,13 +60,16 @@ public:
                     covered += area;
                     for (size_t f = 0; f < fields_.size(); ++f)
                     {
-                        const vector v = valueOf(fields_[f], s.facets[k], s.fluid[k]);
+                        const vector v = fields_[f] == "p"   ? vector(s.fluid[k].p, 0, 0)
+                                         : fields_[f] == "U" ? s.fluid[k].U
+                                                             : tau[n];
                         const scalar size = fields_[f] == "p" ? v[0] : v.norm();
                         if (sums()) result[f] += area * v;
                         else if (operation_ == "min") result[f][0] = std::min(result[f][0], size);
                         else result[f][0] = std::max(result[f][0], size);
                     }
                 }
+        }
         file_.begin(case_.time.value());
         for (size_t f = 0; f < fields_.size(); ++f)
         {
@@ -74,12 +85,6 @@ public:
 private:
     bool sums() const { return operation_ != "min" && operation_ != "max"; }
     scalar start() const { return operation_ == "min" ? 1e300 : operation_ == "max" ? -1e300 : 0; }
-
-    vector valueOf(const word& field, const facet& f, const fluidAt& fluid) const
-    {
-        if (field == "p") return {fluid.p, 0, 0};
-        return field == "U" ? fluid.U : shearOn(f.area.normalized(), fluid, case_);
-    }
 
     List<word> titles(const dictionary& dict) const
     {

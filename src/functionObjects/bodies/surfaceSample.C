@@ -15,8 +15,8 @@
 
 #include "fieldSampler.H"
 #include "fileNames.H"
-#include "loadedBody.H"
 #include "vtkSurface.H"
+#include "wallShear.H"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -68,18 +68,21 @@ private:
         bool covered;
         List<List<scalar>> others = {};  // of fields_
     };
-    List<row> rowsOf(const loadedBody& b, const loadedBody::side& s) const
+    // Of all sides, one after the other
+    List<row> rowsOf(const loadedBody& b, const List<loadedBody::triangulation>& sides) const
     {
         // VTK's reader stops at a NaN
         const scalar blank = vtk_ ? 0 : std::numeric_limits<scalar>::quiet_NaN();
+        const vector none = vector::Constant(blank);
+        const List<vector> tau = wallShear(b, sides, case_, pairFriction(case_));
         List<row> rows;
-        for (size_t k = 0; k < s.facets.size(); ++k)
-        {
-            const vector n = s.facets[k].area.normalized(), none = vector::Constant(blank);
-            const fluidAt& f = s.fluid[k];
-            rows.push_back({s.facets[k].centre, f.U, shearOn(n, f, case_), f.p, true});
-            if (!f.covered) rows.back() = {s.facets[k].centre, none, none, blank, false};
-        }
+        for (const loadedBody::triangulation& s : sides)
+            for (size_t k = 0; k < s.facets.size(); ++k)
+            {
+                const fluidAt& f = s.fluid[k];
+                rows.push_back({s.facets[k].centre, f.U, tau[rows.size()], f.p, true});
+                if (!f.covered) rows.back() = {s.facets[k].centre, none, none, blank, false};
+            }
         addOthers(b, rows, blank);
         return rows;
     }
@@ -120,16 +123,15 @@ private:
             "wallShearStress_z";
         for (const particleField& f : fields_) text += "\t" + join(f.titles(), "\t");
         text += "\n";
-        for (const loadedBody::triangulation& s : b.triangulated())
-            for (const row& r : rowsOf(b, s))
-            {
-                word line = numbers(r.centre) + " " + number(r.p) + " " + numbers(r.U) + " " +
-                            numbers(r.shear);
-                for (const List<scalar>& values : r.others)
-                    for (const scalar v : values) line += " " + number(v);
-                for (char& c : line) c = c == ' ' ? '\t' : c;
-                text += line + "\n";
-            }
+        for (const row& r : rowsOf(b, b.triangulated()))
+        {
+            word line =
+                numbers(r.centre) + " " + number(r.p) + " " + numbers(r.U) + " " + numbers(r.shear);
+            for (const List<scalar>& values : r.others)
+                for (const scalar v : values) line += " " + number(v);
+            for (char& c : line) c = c == ' ' ? '\t' : c;
+            text += line + "\n";
+        }
         return text;
     }
 
@@ -140,18 +142,16 @@ private:
             covered{"covered", {}, {}, true};
         List<triangleField> others;
         for (const particleField& f : fields_) others.push_back({f.name(), {}});
-        for (const loadedBody::triangulation& s : b.triangulated())
+        const List<loadedBody::triangulation> sides = b.triangulated();
+        for (const loadedBody::triangulation& s : sides) surfaces.push_back(s.surface);
+        for (const row& r : rowsOf(b, sides))
         {
-            surfaces.push_back(s.surface);
-            for (const row& r : rowsOf(b, s))
-            {
-                covered.scalars.push_back(r.covered), p.scalars.push_back(r.p);
-                U.vectors.push_back(r.U), shear.vectors.push_back(r.shear);
-                for (size_t f = 0; f < others.size(); ++f)
-                    if (const List<scalar>& v = r.others[f]; v.size() == 1)
-                        others[f].scalars.push_back(v[0]);
-                    else others[f].vectors.emplace_back(v[0], v[1], v[2]);
-            }
+            covered.scalars.push_back(r.covered), p.scalars.push_back(r.p);
+            U.vectors.push_back(r.U), shear.vectors.push_back(r.shear);
+            for (size_t f = 0; f < others.size(); ++f)
+                if (const List<scalar>& v = r.others[f]; v.size() == 1)
+                    others[f].scalars.push_back(v[0]);
+                else others[f].vectors.emplace_back(v[0], v[1], v[2]);
         }
         others.insert(others.begin(), {p, U, shear, covered});
         return ispf::vtkText(b.name() + " at time " + case_.time.timeName(), surfaces, others,

@@ -10,14 +10,13 @@
 //     RRT                 1/((1 - 2 OSI) TAWSS) = T/|int tau dt| [1/Pa]
 //
 // (He & Ku 1996, J. Biomech. Eng. 118; Himburg et al. 2004, Ann. Biomed. Eng. 32).  The integrals begin at `start` [s] and
-// have the value of each step's end.  On walls the fit passes through the wall's velocity; on solids it is free.  The sum of the solver's pairs per triangle scatters by more than
-// its value.
+// have the value of each step's end (wallShear.H).
 // A triangle without particles before it has `covered` 0 and zeros; it does not count in means and integrals.
 #include "functionObject.H"
 
 #include "fileNames.H"
-#include "loadedBody.H"
 #include "vtkSurface.H"
+#include "wallShear.H"
 #include <cmath>
 #include <limits>
 
@@ -86,9 +85,10 @@ public:
         const scalar dt = now - std::max(from, start_);
         last_ = now;
         if (!(dt > 0)) return;
+        const pairFriction friction(case_);
         for (size_t b = 0; b < bodies_.size(); ++b)
         {
-            const List<sample> samples = samplesOf(bodies_[b].lasting());
+            const List<sample> samples = samplesOf(bodies_[b], bodies_[b].lasting(), friction);
             histories_[b].resize(samples.size());
             for (size_t k = 0; k < samples.size(); ++k)
                 if (samples[k].covered) histories_[b][k].add(samples[k].tau, dt);
@@ -97,10 +97,11 @@ public:
 
     void write() override
     {
+        const pairFriction friction(case_);
         for (size_t b = 0; b < bodies_.size(); ++b)
         {
             const List<loadedBody::triangulation> sides = bodies_[b].lasting();
-            const List<sample> samples = samplesOf(sides);
+            const List<sample> samples = samplesOf(bodies_[b], sides, friction);
             histories_[b].resize(samples.size());
             writeRow(files_[b], samples, histories_[b]);
             writeSurface(bodies_[b].name(), sides, samples, histories_[b]);
@@ -128,7 +129,8 @@ public:
         List<List<history>> kept(bodies_.size());
         for (size_t b = 0; b < bodies_.size(); ++b)
         {
-            const size_t n = samplesOf(bodies_[b].lasting()).size();
+            size_t n = 0;
+            for (const loadedBody::triangulation& s : bodies_[b].lasting()) n += s.facets.size();
             if (next() != scalar(n) || state.size() < at + n * history::nNumbers)
                 return warning("Function object " + name() + ": the triangles of " +
                                bodies_[b].name() + " are not those of the time " +
@@ -153,8 +155,10 @@ private:
         bool covered;
     };
 
-    List<sample> samplesOf(const List<loadedBody::triangulation>& sides) const
+    List<sample> samplesOf(const loadedBody& body, const List<loadedBody::triangulation>& sides,
+                           const pairFriction& friction) const
     {
+        const List<vector> tau = wallShear(body, sides, case_, friction);
         List<sample> all;
         for (const loadedBody::triangulation& s : sides)
             for (size_t k = 0; k < s.facets.size(); ++k)
@@ -163,7 +167,7 @@ private:
                 // a triangle without area has no normal
                 all.push_back({.area = area, .covered = s.fluid[k].covered && area > 0});
                 if (!all.back().covered) continue;
-                all.back().tau = shearOn(s.facets[k].area / area, s.fluid[k], case_);
+                all.back().tau = tau[all.size() - 1];
                 all.back().p = s.fluid[k].p;
             }
         return all;
