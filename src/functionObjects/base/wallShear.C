@@ -41,16 +41,20 @@ public:
     using row = List<part>;  // the parts of one force; their sum is 1, or there are none
 
     row rowOfFacet(label m) const { return rowOf(grid_[m], normal_[m]); }
-    // Of fluid at x: it acts on the plane of the nearest facet that it is before
-    row rowOfFluid(const vector& x) const
+    // Of fluid at x, on the plane of a facet that it is before
+    row rowOfFluid(const vector& x, label m) const
+    {
+        return rowOf(x - depth(x, m) * normal_[m], normal_[m]);
+    }
+    // The nearest of these facets; -1: it is before none
+    label before(const vector& x) const
     {
         label nearest = -1;
         scalar least = radius_;
         grid_.within(x, radius_, [&](label k, scalar r) {
             if (r < least && depth(x, k) <= 0) least = r, nearest = k;
         });
-        if (nearest < 0) return {};
-        return rowOf(x - depth(x, nearest) * normal_[nearest], normal_[nearest]);
+        return nearest;
     }
     // Adds the parts of a force to the facets' forces
     void spread(const row& parts, const vector& force, List<vector>& forces) const
@@ -89,14 +93,15 @@ private:
     pointGrid grid_;  // their centres
 };
 
-template <class RowOf>
-List<coveredFacets::row> rowsOf(label n, RowOf&& rowOf)
+// f(k) for all k < n
+template <class F>
+auto forAll(label n, F&& f)
 {
-    List<coveredFacets::row> rows(n);
+    List<decltype(f(label()))> all(n);
     parallelFor(n, [&](label begin, label end) {
-        for (label k = begin; k < end; ++k) rows[k] = rowOf(k);
+        for (label k = begin; k < end; ++k) all[k] = f(k);
     });
-    return rows;
+    return all;
 }
 
 }  // namespace
@@ -113,13 +118,17 @@ List<vector> wallShear(const loadedBody& body, const List<facet>& facets,
     const List<pairFriction::share>* shares = friction.sharesOf(body);
     if (!shares) return tau;
     // (3.18)
-    const List<coveredFacets::row> rows =
-        rowsOf(surface.n(), [&](label k) { return surface.rowOfFacet(k); });
-    const List<coveredFacets::row> rowsOfFluid =
-        rowsOf(label(shares->size()), [&](label i) { return surface.rowOfFluid((*shares)[i].x); });
+    const auto before =
+        forAll(label(shares->size()), [&](label i) { return surface.before((*shares)[i].x); });
+    const auto rowsOfFluid = forAll(label(shares->size()), [&](label i) {
+        return before[i] < 0 ? coveredFacets::row() : surface.rowOfFluid((*shares)[i].x, before[i]);
+    });
+    const auto rows = forAll(surface.n(), [&](label k) { return surface.rowOfFacet(k); });
     List<vector> missing(surface.n(), vector::Zero());
     for (size_t i = 0; i < shares->size(); ++i)
-        surface.spread(rowsOfFluid[i], (*shares)[i].force, missing);
+        if (before[i] >= 0)
+            surface.spread(rowsOfFluid[i], surface.tangential(before[i], (*shares)[i].force),
+                           missing);
     for (label k = 0; k < surface.n(); ++k)
         surface.spread(rows[k], -surface.area(k) * tau[surface.of(k)], missing);
     for (int sweep = 1; sweep < sweeps; ++sweep)
