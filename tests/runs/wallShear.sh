@@ -48,4 +48,39 @@ pipe pipe "mu 3.5e-3;" 0.5 1.6667e-4
 # int r^2 (sqrt(G r/2) - sqrt(yieldStress))^2/mu dr/R^2
 exact=$(awk 'BEGIN { R = 1e-3; n = 4000; for (k = 0.5; k < n; ++k) { r = k*R/n; s = sqrt(50*r/2) - sqrt(5e-3); if (s > 0) sum += r*r*s*s/3.5e-3*R/n }; print sum/(R*R) }')
 pipe Casson "viscosityModel Casson; mu 3.5e-3; yieldStress 5e-3; muMax 1;" 0.05 1e-4
+
+# Couette flow between walls of 6 and 12 spacings that turn against each other, u = a r + b/r: tau = mu (du/dr - u/r) = -2 mu b/r^2, TAWSS within 6 %
+bareCase round
+echo "rho 1000; mu 1;" > constant/physicalProperties; echo "coupling monolithic;" > system/sphSolution
+echo "dx 1e-3; nDims 2; placement bodyFitted; zones { blood { phase fluid; shape annulus; point1 (0 0 0); innerRadius 6e-3; outerRadius 12e-3; } }
+    patches { inner { box ((-6.5e-3 -6.5e-3 -1) (6.5e-3 6.5e-3 1)); } }" > system/particleDict
+echo "inner { type wall; rotation { origin (0 0 0); axis (0 0 1); omega 10; } } walls { type wall; rotation { origin (0 0 0); axis (0 0 1); omega -5; } }" > constant/boundary
+echo "startTime 0; endTime 0.06; deltaT 1e-3; writeControl none; functions { w { type wallShearStress; patches (inner walls); start 0.03; writeControl onEnd; } }" > system/controlDict
+place; solved
+for wall in inner:40 walls:10; do
+    awk -v exact="${wall#*:}" '!/^#/ { ratio = $4/exact } END { printf "    round, '"${wall%:*}"': TAWSS %.4f of the exact stress\n", ratio; exit !((ratio - 1)^2 < 0.06^2) }' \
+        "postProcessing/w/0/${wall%:*}.dat" || fail "wall shear stress on the round wall ${wall%:*}"
+done
+
+# between a wall at rest and a lid: each goes on with its own history, whatever the order; with another start both begin anew
+bareCase order
+echo "rho 1000; mu 0.05;" > constant/physicalProperties; echo "value (0 0 0);" > constant/g
+echo "dx 2e-4; nDims 2; zones { blood { phase fluid; shape box; min (0 0 0); max (1e-3 2e-3 0); } }" > system/particleDict
+echo "low { type wall; point (0 0 0); normal (0 -1 0); } high { type wall; point (0 2e-3 0); normal (0 1 0); velocity (0.01 0 0); }
+    ends { type cyclic; point (0 0 0); separation (1e-3 0 0); }" > constant/boundary
+echo "coupling monolithic;" > system/sphSolution
+until_() { # time, patches, start
+    echo "startFrom latestTime; endTime $1; deltaT 1e-3; writeControl timeStep; writeInterval 1;
+        functions { w { type wallShearStress; patches ($2); start $3; writeControl timeStep; writeInterval 1; } }" > system/controlDict
+    solved
+}
+place; until_ 0.01 "low high" 0; until_ 0.011 "high low" 0
+mean() { awk '!/^#/ { last = $4 } END { print last }' "postProcessing/w/$1/$2.dat"; }
+for wall in low high; do
+    awk -v a="$(mean 0 $wall)" -v b="$(mean 0.01 $wall)" 'BEGIN { exit !(a > 0 && (b/a - 1)^2 < 0.3^2) }' ||
+        fail "continued in another order: $wall $(mean 0 $wall), then $(mean 0.01 $wall)"
+done
+awk -v a="$(mean 0 low)" -v b="$(mean 0 high)" 'BEGIN { exit !(b > 2*a) }' || fail "the histories do not differ"
+until_ 0.012 "high low" 0.005
+grep -q "begin anew" log || fail "another start is taken without a word"
 [ $failures = 0 ]

@@ -15,8 +15,7 @@ bodyLoad loadOn(const loadedBody& body, const fsiCase& c, const pairFriction& fr
                 const loadReference& reference)
 {
     bodyLoad sum;
-    const bool byPairs = !body.isWall() || friction.holds(body.name());
-    if (byPairs)
+    if (!body.isWall() || friction.holds(body.name()))
     {
         const auto& [force, moment] =
             body.isWall() ? friction.onWall(body.name()) : friction.onZone(body.name());
@@ -32,9 +31,6 @@ bodyLoad loadOn(const loadedBody& body, const fsiCase& c, const pairFriction& fr
             const vector p = (s.fluid[k].p - reference.p) * f.area;
             const vector arm = f.centre - reference.centre;
             sum.pressure += p, sum.pressureMoment += arm.cross(p);
-            if (byPairs) continue;
-            const vector v = -viscousStress(s.fluid[k], c) * f.area;
-            sum.viscous += v, sum.viscousMoment += arm.cross(v);
         }
     return sum;
 }

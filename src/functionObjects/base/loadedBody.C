@@ -145,7 +145,7 @@ List<loadedBody::side> loadedBody::sides() const
             nodes = s.nodes;
             facets = facetsOf(std::move(s), case_->cloud.dx, case_->cloud.nDims);
         }
-        all.push_back({facets, surfaceFit(*case_, p.zones, facets).of(facets)});
+        all.push_back(fitted(facets, p));
     });
     return all;
 }
@@ -156,7 +156,7 @@ List<loadedBody::triangulation> loadedBody::triangulated() const
     eachSide([&](triSurface s, const part& p) {
         prepare(s, case_->cloud.dx);
         const List<facet> facets = trianglesOf(s, case_->cloud.nDims);
-        all.push_back({{facets, surfaceFit(*case_, p.zones, facets).of(facets)}, std::move(s)});
+        all.push_back({fitted(facets, p), std::move(s)});
     });
     return all;
 }
@@ -167,8 +167,7 @@ List<loadedBody::triangulation> loadedBody::lasting() const
     eachSide([&](triSurface s, const part& p) {
         if (!p.tracked) s = carried(all.size(), s);
         const List<facet> facets = trianglesOf(s, case_->cloud.nDims);
-        const surfaceFit fit(*case_, p.zones, facets);
-        all.push_back({{facets, fit.of(facets, stickingTo(s))}, std::move(s)});
+        all.push_back({fitted(facets, p), std::move(s)});
     });
     return all;
 }
@@ -198,16 +197,15 @@ triSurface loadedBody::carried(size_t side, const triSurface& now) const
     return s;
 }
 
-// Per triangle of a wall that the fluid sticks to; else empty.  The velocity of a solid's surface is known no better than that of
-// the fluid there
-List<vector> loadedBody::stickingTo(const triSurface& s) const
+// The fit passes through the velocity of a wall that the fluid sticks to.  That of a solid's surface is known no better than the
+// fluid's there
+loadedBody::side loadedBody::fitted(const List<facet>& facets, const part& p) const
 {
     List<vector> U;
     const List<word> sticky = case_->walls->noSlipWalls();
     if (isWall_ && std::find(sticky.begin(), sticky.end(), name_) != sticky.end())
-        for (label t = 0; t < s.size(); ++t)
-            U.push_back(case_->walls->wallVelocity(name_, s.centre(t)));
-    return U;
+        for (const facet& f : facets) U.push_back(case_->walls->wallVelocity(name_, f.centre));
+    return {facets, surfaceFit(*case_, p.zones, facets).of(facets, U)};
 }
 
 tensor viscousStress(const fluidAt& f, const fsiCase& c)

@@ -74,11 +74,6 @@ surfaceFit::surfaceFit(const fsiCase& c, const List<char>& zones, const List<fac
     }
 }
 
-List<fluidAt> surfaceFit::of(const List<facet>& facets) const
-{
-    return of(facets, {});
-}
-
 List<fluidAt> surfaceFit::of(const List<facet>& facets, const List<vector>& wallVelocity) const
 {
     List<fluidAt> result(facets.size());

@@ -56,12 +56,17 @@ public:
         });
         return nearest;
     }
-    // Adds the parts of a force to the facets' forces
-    void spread(const row& parts, const vector& force, List<vector>& forces) const
+    // Adds the parts of a force along facet m to the facets' forces, each turned as the normal is: |force| is kept
+    void spread(const row& parts, label m, const vector& force, List<vector>& forces) const
     {
         for (const part& p : parts)
-            forces[p.facet] +=
-                p.weight * (p.image < 0 ? force : vector(images_[p.image].R * force));
+        {
+            const bool own = p.image < 0;
+            const vector f = own ? force : vector(images_[p.image].R * force),
+                         n = own ? normal_[m] : vector(images_[p.image].R * normal_[m]);
+            const vector& to = normal_[p.facet];
+            forces[p.facet] += p.weight * (f - f.dot(to) / (1 + n.dot(to)) * (n + to));
+        }
     }
 
 private:
@@ -110,6 +115,7 @@ List<vector> wallShear(const loadedBody& body, const List<facet>& facets,
                        const List<fluidAt>& fluid, const fsiCase& c, const pairFriction& friction)
 {
     List<vector> tau(facets.size(), vector::Zero());
+    if (body.isWall() && !friction.holds(body.name())) return tau;
     const List<structureImage> images = c.walls->images();
     const coveredFacets surface(facets, fluid, images, c.cloud.dx);
     for (label k = 0; k < surface.n(); ++k)
@@ -127,18 +133,17 @@ List<vector> wallShear(const loadedBody& body, const List<facet>& facets,
     List<vector> missing(surface.n(), vector::Zero());
     for (size_t i = 0; i < shares->size(); ++i)
         if (before[i] >= 0)
-            surface.spread(rowsOfFluid[i], surface.tangential(before[i], (*shares)[i].force),
-                           missing);
+            surface.spread(rowsOfFluid[i], before[i],
+                           surface.tangential(before[i], (*shares)[i].force), missing);
     for (label k = 0; k < surface.n(); ++k)
-        surface.spread(rows[k], -surface.area(k) * tau[surface.of(k)], missing);
+        surface.spread(rows[k], k, -surface.area(k) * tau[surface.of(k)], missing);
     for (int sweep = 1; sweep < sweeps; ++sweep)
     {
         List<vector> wider(surface.n(), vector::Zero());
-        for (label k = 0; k < surface.n(); ++k) surface.spread(rows[k], missing[k], wider);
+        for (label k = 0; k < surface.n(); ++k) surface.spread(rows[k], k, missing[k], wider);
         missing = std::move(wider);
     }
-    for (label k = 0; k < surface.n(); ++k)
-        tau[surface.of(k)] += surface.tangential(k, missing[k] / surface.area(k));
+    for (label k = 0; k < surface.n(); ++k) tau[surface.of(k)] += missing[k] / surface.area(k);
     return tau;
 }
 

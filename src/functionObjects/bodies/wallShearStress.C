@@ -18,7 +18,9 @@
 #include "vtkSurface.H"
 #include "wallShear.H"
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 
 namespace ispf
 {
@@ -108,14 +110,14 @@ public:
         }
     }
 
-    // Time of the last addition, then for each body the number of triangles and their histories
+    // Time of the last addition, `start`, then for each body its key, the number of triangles and their histories
     List<scalar> state() const override
     {
-        List<scalar> all = {last_};
-        for (const List<history>& body : histories_)
+        List<scalar> all = {last_, start_};
+        for (size_t b = 0; b < bodies_.size(); ++b)
         {
-            all.push_back(scalar(body.size()));
-            for (const history& h : body)
+            all.push_back(keyOf(bodies_[b])), all.push_back(scalar(histories_[b].size()));
+            for (const history& h : histories_[b])
                 all.insert(all.end(), {h.time, h.size, h.sum[0], h.sum[1], h.sum[2]});
         }
         return std::isnan(last_) ? List<scalar>() : all;
@@ -125,29 +127,45 @@ public:
     {
         size_t at = 0;
         const auto next = [&] { return at < state.size() ? state[at++] : -1; };
-        const scalar last = next();
-        List<List<history>> kept(bodies_.size());
+        const scalar last = next(), start = next();
+        std::map<scalar, List<history>> kept;
+        while (at < state.size())
+        {
+            List<history>& body = kept[next()];
+            for (label n = label(next()); n > 0; --n)
+            {
+                history& h = body.emplace_back();
+                h.time = next(), h.size = next();
+                for (int a = 0; a < 3; ++a) h.sum[a] = next();
+            }
+        }
+        const auto anew = [&](const word& why) {
+            warning("Function object " + name() + ": " + why + " the time " +
+                    case_.time.timeName() +
+                    " written, so TAWSS, OSI and RRT begin anew at this time.");
+        };
+        last_ = last;
+        if (start != start_) return anew("`start` is not that of");
         for (size_t b = 0; b < bodies_.size(); ++b)
         {
             size_t n = 0;
             for (const loadedBody::triangulation& s : bodies_[b].lasting()) n += s.facets.size();
-            if (next() != scalar(n) || state.size() < at + n * history::nNumbers)
-                return warning("Function object " + name() + ": the triangles of " +
-                               bodies_[b].name() + " are not those of the time " +
-                               case_.time.timeName() +
-                               " written, so TAWSS, OSI and RRT begin anew at this time.");
-            for (size_t k = 0; k < n; ++k)
-            {
-                history h;
-                h.time = next(), h.size = next();
-                for (int a = 0; a < 3; ++a) h.sum[a] = next();
-                kept[b].push_back(h);
-            }
+            const auto found = kept.find(keyOf(bodies_[b]));
+            if (found != kept.end() && found->second.size() == n) histories_[b] = found->second;
+            else anew("the triangles of " + bodies_[b].name() + " are not those of");
         }
-        histories_ = std::move(kept), last_ = last;
     }
 
 private:
+    // A whole number that another body hardly has (FNV-1a of its kind and name)
+    static scalar keyOf(const loadedBody& body)
+    {
+        std::uint64_t key = 14695981039346656037u;
+        for (const char c : (body.isWall() ? "wall " : "zone ") + body.name())
+            key = (key ^ std::uint8_t(c)) * 1099511628211u;
+        return scalar(key >> 12);
+    }
+
     struct sample
     {
         vector tau = vector::Zero();
