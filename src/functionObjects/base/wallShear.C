@@ -32,7 +32,7 @@ public:
     const vector& normal(label k) const { return normal_[k]; }
     vector tangential(label k, const vector& v) const { return v - v.dot(normal_[k]) * normal_[k]; }
 
-    // What a facet gets of a force; image -1: the force itself, else that of an image
+    // A facet receives this share of a force, or of its image (image -1: of the force itself)
     struct part
     {
         label facet, image;
