@@ -123,6 +123,9 @@ solved; mv postProcessing written; ispfPostProcess > log 2>&1 || fail "energy: $
 potentials() { awk '$1 == 0 || $1 == 0.05 || $1 == 0.1 { print $1, $4 }' $1/e/0/energy.dat; }
 potentials written | awk '{ v[$1] = $2 } END { exit !(v[0] == 0 && v[0.05] > 1e-3 && v[0.1] > 1.9*v[0.05]) }' &&
     diff <(potentials written) <(potentials postProcessing) || fail "potential energy under a growing body force: $(potentials written)"
+grep -q "did not have it" log && fail "its past is in the written times"
+echo "late { type energy; }" > system/more; ispfPostProcess -dict system/more > log 2>&1 || fail "energy that the run had not: $(tail -n 5 log)"
+[ "$(grep -c "Function object late: the run that wrote these times did not have it" log)" = 1 ] || fail "no word of the missing past: $(cat log)"
 
 # ---- forces: shear between plates, and what a pressure drop pushes through them --------------------------
 for walls in particles mirror; do

@@ -110,6 +110,8 @@ public:
         }
     }
 
+    bool sumsOverTime() const override { return true; }
+
     // Time of the last addition, `start`, then for each body its key, the number of triangles and their histories
     List<scalar> state() const override
     {

@@ -93,6 +93,8 @@ public:
         file_.endRow();
     }
 
+    bool sumsOverTime() const override { return true; }
+
     List<scalar> state() const override
     {
         return {time_,     now_.dissipation, now_.wallPower, dissipated_,

@@ -295,7 +295,23 @@ void functionObjectList::writeNow()
     placeRead();
     restore();
     for (item& i : items_)
-        if (i.write.control != "onEnd" && within(i)) i.object->write();
+    {
+        if (i.write.control == "onEnd" || !within(i)) continue;
+        warnOfMissingPast(*i.object);
+        i.object->write();
+    }
+}
+
+void functionObjectList::warnOfMissingPast(const functionObject& f) const
+{
+    if (!f.sumsOverTime() || case_.time.timeIndex() == 0 ||
+        case_.cloud.state.find(entries::stateOf(f)))
+        return;
+    warning("Function object " + f.name() +
+                ": the run that wrote these times did not have it. Values of an instant are right, "
+                "integrals over time are not those of the run: for these run with it in "
+                "system/controlDict.",
+            1);
 }
 
 List<word> functionObjectList::names() const
