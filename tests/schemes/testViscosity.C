@@ -19,18 +19,22 @@ namespace
 constexpr scalar mu = 0.05, rho = 1000, drive = 0.005;  // [Pa s] [kg/m^3] [m/s^2]
 const word CarreauYasuda = "viscosityModel CarreauYasuda; mu0 0.8; lambda 3.313; a 2; n 0.3568; ";
 const word Casson = "viscosityModel Casson; yieldStress 0.005; muMax 5; ";
+// Half of the channel does not shear: what shears is 5 dx wide on each side, and the mean over neighbours blurs its edge
+const word CassonPlug = "viscosityModel Casson; yieldStress 0.025; muMax 5; ";
 
 scalar ofCarreauYasuda(scalar g)
 {
     return mu + (0.8 - mu) * std::pow(1 + std::pow(3.313 * g, 2), (0.3568 - 1) / 2);
 }
-scalar ofCasson(scalar g)
+scalar ofCasson(scalar g, scalar yieldStress = 0.005)
 {
-    return std::min(5.0, std::pow(std::sqrt(mu) + std::sqrt(0.005 / g), 2));
+    return std::min(5.0, std::pow(std::sqrt(mu) + std::sqrt(yieldStress / g), 2));
 }
 
-const std::map<word, std::function<scalar(scalar)>> laws = {{CarreauYasuda, ofCarreauYasuda},
-                                                            {Casson, ofCasson}};
+const std::map<word, std::function<scalar(scalar)>> laws = {
+    {CarreauYasuda, ofCarreauYasuda},
+    {Casson, [](scalar g) { return ofCasson(g); }},
+    {CassonPlug, [](scalar g) { return ofCasson(g, 0.025); }}};
 
 // u at the distance y from the middle of a channel of half the height h
 scalar exact(const std::function<scalar(scalar)>& viscosity, scalar y, scalar h)
@@ -84,7 +88,7 @@ TEST_CASE(
                     worst = std::max(worst, std::abs(u - exact(viscosity, y, h)) / most);
                     plain = std::max(plain, u);
                 }
-                CHECK(worst < 0.02);
+                CHECK(worst < (model == CassonPlug ? 0.1 : 0.02));
                 // a Newtonian fluid of this mu would be faster by far
                 CHECK(plain < 0.7 * rho * drive * h * h / (2 * mu));
             }
@@ -107,7 +111,7 @@ TEST_CASE("flow of shear-thinning blood between two elastic slabs")
         scalar flow = 0;
         constexpr int n = 200;
         for (int k = 0; k < n; ++k) flow += 2 * h / n * exact(viscosity, h * (k + 0.5) / n, h);
-        CHECK(elasticSlabs::flow(c.cloud) == relative(flow, 0.02));
+        CHECK(elasticSlabs::flow(c.cloud) == relative(flow, model == CassonPlug ? 0.06 : 0.02));
     }
 }
 
