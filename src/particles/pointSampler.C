@@ -10,13 +10,6 @@ namespace ispf
 namespace
 {
 
-// Wendland C2 without its constant, q = r/radius
-scalar weightOf(scalar q)
-{
-    const scalar a = 1 - q;
-    return a * a * a * a * (4 * q + 1);
-}
-
 // Inverse of the neighbours' spread, zero in directions that they do not span
 tensor pseudoInverse(const tensor& spread, scalar least)
 {
@@ -31,6 +24,12 @@ tensor pseudoInverse(const tensor& spread, scalar least)
 }
 
 }  // namespace
+
+scalar pointSampler::weightOf(scalar q)
+{
+    const scalar a = 1 - q;
+    return a * a * a * a * (4 * q + 1);
+}
 
 pointSampler::pointSampler(const List<vector>& positions, scalar radius)
     : x_(positions), radius_(radius)
@@ -95,28 +94,32 @@ void pointSampler::forNear(const vector& point, const Visit& visit) const
 List<pointSampler::contribution> pointSampler::weights(const vector& point) const
 {
     List<contribution> result;
+    List<vector> offsets;
+    forNear(point, [&](label i, scalar r) {
+        result.push_back({i, weightOf(r / radius_)});
+        offsets.push_back((x_[size_t(i)] - point) / radius_);
+    });
+    makeLinear(offsets, result);
+    return result;
+}
+
+void pointSampler::makeLinear(const List<vector>& offsets, List<contribution>& weights)
+{
     scalar total = 0;
     vector mean = vector::Zero();
-    forNear(point, [&](label i, scalar r) {
-        const scalar w = weightOf(r / radius_);
-        result.push_back({i, w});
-        total += w;
-        mean += w * (x_[size_t(i)] - point);
-    });
-    if (result.empty()) return result;
+    for (size_t k = 0; k < weights.size(); ++k)
+        total += weights[k].weight, mean += weights[k].weight * offsets[k];
     mean /= total;
-
     tensor spread = tensor::Zero();
-    for (const contribution& c : result)
+    for (size_t k = 0; k < weights.size(); ++k)
     {
-        const vector d = x_[size_t(c.index)] - point - mean;
-        spread += c.weight / total * d * d.transpose();
+        const vector d = offsets[k] - mean;
+        spread += weights[k].weight / total * d * d.transpose();
     }
     // value of the regression line at the point: mean value - slope . mean offset
-    const vector lever = pseudoInverse(spread, 1e-3 * radius_ * radius_) * mean;
-    for (contribution& c : result)
-        c.weight *= (1 - lever.dot(x_[size_t(c.index)] - point - mean)) / total;
-    return result;
+    const vector lever = pseudoInverse(spread, 1e-3) * mean;
+    for (size_t k = 0; k < weights.size(); ++k)
+        weights[k].weight *= (1 - lever.dot(offsets[k] - mean)) / total;
 }
 
 pointSampler::neighbour pointSampler::nearest(const vector& point) const

@@ -76,7 +76,10 @@ List<particleField> fieldsOf(const particleCloud& cloud, const dictionary& dict,
 {
     List<particleField> fields;
     for (const word& name : dict.getOrDefault<List<word>>("fields", defaults))
+    {
         fields.emplace_back(cloud, name, dict.where("fields"), c);
+        for (const particleField& f : fields) fields.back().shareWith(f);
+    }
     if (fields.empty() && !defaults.empty())
         dict.fail("fields", "It names no field and has no effect");
     return fields;

@@ -23,14 +23,9 @@ scalar vonMisesOf(const tensor& sigma)
 solidFields& solidFields::now()
 {
     if (time_ == case_.time.value()) return *this;
-    const particleCloud& cloud = case_.cloud;
+    if (!recovery_ || !recovery_->isCurrent()) recovery_ = std::make_unique<solidRecovery>(case_);
     time_ = case_.time.value();
-    case_.structure->fromRest(cloud.x, F_);
-    case_.structure->stress(cloud.x, sigma_);
-    case_.structure->addViscousStress(cloud.x, cloud.Up, sigma_);
-    forEach(0, cloud.nSolid(), [&](label i) {
-        sigma_[i] = sigma_[i] / F_[i].determinant() - cloud.Up[i][3] * tensor::Identity();
-    });
+    recovery_->evaluate(F_, sigma_);
     return *this;
 }
 

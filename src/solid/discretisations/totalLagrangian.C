@@ -100,13 +100,12 @@ public:
     void force(const List<vec4>& x, List<vec4>& f) const override;
     scalar energy(const List<vec4>& x) const override;
     void stress(const List<vec4>& x, List<tensor>& tau) const override;
+    bool stress(const motion& m, List<tensor>& tau) const override;
     blockMatrix3 tangentPattern() const override { return tangent_->pattern(); }
     using structureModel::assembleTangent;
     void assembleTangent(const List<vec4>& x, tangentKind kind, const List<scalar>& p,
                          blockMatrix3& K) const override;
     bool damps() const override { return materials_.damps(); }
-    void addViscousStress(const List<vec4>& x, const List<vec4>& u,
-                          List<tensor>& tau) const override;
     void assembleDamping(const List<vec4>& x, blockMatrix3& D) const override;
     List<label> linkCounts() const override;
     word description() const override;
@@ -311,18 +310,18 @@ void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, con
     tangent_->assemble(C, star_, K);
 }
 
-// tau_v of (5.28)
-void totalLagrangian::addViscousStress(const List<vec4>& x, const List<vec4>& u,
-                                       List<tensor>& tau) const
+// tau of (5.14), (5.32) and (5.28)
+bool totalLagrangian::stress(const motion& m, List<tensor>& tau) const
 {
-    if (!damps()) return;
-    List<tensor> F, dF;
-    fit_.apply(x, F), fit_.applyLinear(u, dF);
+    tau.assign(size_t(n()), tensor::Zero());
     forEach(0, n(), [&](label k) {
         if (!active_[k]) return;
-        const tensor L = dF[k] * F[k].inverse();
+        tau[k] = materials_.stress(m.fromRest[k], k) * m.fromRest[k].transpose();
+        if (remembers(k)) tau[k] += networks_->stress(m.F[k], k) * m.F[k].transpose();
+        const tensor L = m.rate[k] * m.F[k].inverse();
         tau[k] += materials_.viscosity(k) * (L + L.transpose());
     });
+    return true;
 }
 
 // (5.29)

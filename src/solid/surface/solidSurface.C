@@ -22,6 +22,17 @@ constexpr const char* wayField[2] = {"surfaceWayA", "surfaceWayB"};     // {e0, 
 
 }  // namespace
 
+List<sideAtRest> sidesAtRest(const particleCloud& cloud, label k)
+{
+    List<sideAtRest> sides;
+    for (const int s : {0, 1})
+        if (const auto area = cloud.vectors.find(areaField[s]); area != cloud.vectors.end())
+            if (const vec4& S0 = area->second[k]; S0[3] > 0)
+                sides.push_back(
+                    {label(S0[3]) - 1, S0.xyz(), cloud.vectors.at(wayField[s])[k].xyz()});
+    return sides;
+}
+
 void solidSurface::initialise(particleCloud& cloud, const neighbourList& list,
                               const List<tensor>& F, const List<isometry>& images) const
 {
