@@ -14,7 +14,7 @@ LIBS := core/base core/dictionary core/control geometry surfaceTools fileFormats
         boundary/surfaces boundary/walls boundary/open boundary/patches \
         solid/reference solid/surface solid/materials solid/springs solid/discretisations solid/selection case \
         schemes/resistance schemes/common schemes/projection schemes/monolithic schemes/selection \
-        functionObjects/base functionObjects/fields functionObjects/bodies functionObjects/list
+        functionObjects/surfaces functionObjects/base functionObjects/fields functionObjects/bodies functionObjects/list
 
 USES_core/base               :=
 USES_core/dictionary         := core/base
@@ -47,7 +47,8 @@ USES_schemes/common          := schemes/resistance solid/surface
 USES_schemes/projection      := schemes/common
 USES_schemes/monolithic      := schemes/common
 USES_schemes/selection       := schemes/projection schemes/monolithic
-USES_functionObjects/base    := schemes/common
+USES_functionObjects/surfaces := schemes/common
+USES_functionObjects/base    := functionObjects/surfaces
 USES_functionObjects/fields  := functionObjects/base
 USES_functionObjects/bodies  := functionObjects/base
 USES_functionObjects/list    := functionObjects/fields functionObjects/bodies
