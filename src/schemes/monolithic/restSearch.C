@@ -157,6 +157,7 @@ void restSearch::setForces(elasticStep& elastic, coupledSystem& system, scalar t
     const auto outsidePressure = outside_.pressureAt(t, system.hydrostatic());
     c_.cloud.fillGhosts(c_.cloud.Up, false);
     elastic.begin(x, tau, surface_.overSurface(c_.cloud.Up, *volume_, outsidePressure));
+    elastic.moveRest();
     if (!outsidePressure) return;
     outside_.setStep(c_, surface_, system.hydrostatic(), {tau, t, x});
     elastic.addOutside(outside_.force(), outside_.resistance());

@@ -151,6 +151,9 @@ private:
     }
     volumeStiffness volumeOf(label k) const { return {volumeShare * materials_.shearModulus(k)}; }
     modulusMatrix modulus(const tensor& F, tangentKind kind, label k, scalar p) const;
+    modulusMatrix inStencil(modulusMatrix C, label k) const;
+    modulusMatrix restModulus(label k) const;
+    void assembleRest(blockMatrix3& K) const;
 
     const zoneMaterials materials_;
     const scalar zeroEnergy_;        // alpha of (5.20)
@@ -274,7 +277,7 @@ modulusMatrix totalLagrangian::materialModulus(const tensor& F, label k) const
     return turn.transpose() * C * turn;
 }
 
-// C' of (5.23), with the turning force of the pressure, (7.16)
+// With the turning force of the pressure, (7.16)
 modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label k, scalar p) const
 {
     modulusMatrix C = materialModulus(F, k) + volumeOf(k).tangent(F),
@@ -284,8 +287,14 @@ modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label 
     if (plane) keepPlane(C), keepPlane(turning);
     if (kind == tangentKind::full) C += turning;
     else C = p < 0 ? stablePart(C, turning) : positivePart(C + turning);
+    return inStencil(C, k);
+}
+
+// C' of (5.23) of a modulus C
+modulusMatrix totalLagrangian::inStencil(modulusMatrix C, label k) const
+{
     // its rounding would couple the plane with the direction across it, where nothing but inertia resists
-    if (plane) keepPlane(C);
+    if (ref_.nDims == 2) keepPlane(C);
     C *= ref_.volume();
     for (int c = 0; c < ref_.nDims; ++c)
         for (int d = 0; d < ref_.nDims; ++d)
@@ -294,9 +303,52 @@ modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label 
     return C;
 }
 
+// (7.27): Cauchy's stress over grad w, where the rest places move by - w
+modulusMatrix totalLagrangian::restModulus(label k) const
+{
+    const tensor one = tensor::Identity(), F0 = fromRest(one, k);
+    const tensor stress = materials_.stress(F0, k) * F0.transpose();
+    modulusMatrix C = materialModulus(one, k), ahead = modulusMatrix::Zero();
+    for (int c = 0; c < 3; ++c)
+    {
+        for (int r = 0; r < 3; ++r)
+            for (int d = 0; d < 3; ++d) C(r + 3 * c, c + 3 * d) += stress(r, d);
+        ahead.block<3, 3>(3 * c, 3 * c) = F0;
+    }
+    C *= ahead;
+    if (ref_.nDims == 2) keepPlane(C);
+    return ref_.volume() * C;
+}
+
+// (7.26)
+void totalLagrangian::assembleRest(blockMatrix3& K) const
+{
+    List<modulusMatrix> C(active_.size()), held(active_.size());
+    forEach(0, n(), [&](label k) {
+        if (!active_[k]) return;
+        C[k] = restModulus(k);
+        held[k] = inStencil(volumeOf(k).tangent(tensor::Identity()), k);
+    });
+    tangent_->assemble(C, List<scalar>(active_.size(), 0), K);
+    if (!prestretch_.empty())
+    {
+        List<tensor> toRest(active_.size());
+        forEach(0, n(), [&](label k) { toRest[k] = prestretch_[k].inverse(); });
+        forEach(0, n(), [&](label i) {
+            K.diagonal[i] *= toRest[i];
+            for (label s = K.rowStart[i]; s < K.rowStart[i + 1]; ++s)
+                K.value[s] *= toRest[K.column[s]];
+        });
+    }
+    blockMatrix3 holds = tangent_->pattern();
+    tangent_->assemble(held, star_, holds);
+    K.addScaled(1, holds);
+}
+
 void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, const List<scalar>& p,
                                       blockMatrix3& K) const
 {
+    if (kind == tangentKind::rest) return assembleRest(K);
     List<tensor> F;
     fit_.apply(x, F);
     List<modulusMatrix> C(active_.size());
