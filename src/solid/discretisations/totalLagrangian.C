@@ -151,7 +151,6 @@ private:
     }
     volumeStiffness volumeOf(label k) const { return {volumeShare * materials_.shearModulus(k)}; }
     modulusMatrix modulus(const tensor& F, tangentKind kind, label k, scalar p) const;
-    modulusMatrix inStencil(modulusMatrix C, label k) const;
     modulusMatrix restModulus(label k) const;
     void assembleRest(blockMatrix3& K) const;
 
@@ -277,7 +276,7 @@ modulusMatrix totalLagrangian::materialModulus(const tensor& F, label k) const
     return turn.transpose() * C * turn;
 }
 
-// With the turning force of the pressure, (7.16)
+// C' of (5.23), with the turning force of the pressure, (7.16)
 modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label k, scalar p) const
 {
     modulusMatrix C = materialModulus(F, k) + volumeOf(k).tangent(F),
@@ -287,14 +286,8 @@ modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label 
     if (plane) keepPlane(C), keepPlane(turning);
     if (kind == tangentKind::full) C += turning;
     else C = p < 0 ? stablePart(C, turning) : positivePart(C + turning);
-    return inStencil(C, k);
-}
-
-// C' of (5.23) of a modulus C
-modulusMatrix totalLagrangian::inStencil(modulusMatrix C, label k) const
-{
     // its rounding would couple the plane with the direction across it, where nothing but inertia resists
-    if (ref_.nDims == 2) keepPlane(C);
+    if (plane) keepPlane(C);
     C *= ref_.volume();
     for (int c = 0; c < ref_.nDims; ++c)
         for (int d = 0; d < ref_.nDims; ++d)
@@ -323,26 +316,18 @@ modulusMatrix totalLagrangian::restModulus(label k) const
 // (7.26)
 void totalLagrangian::assembleRest(blockMatrix3& K) const
 {
-    List<modulusMatrix> C(active_.size()), held(active_.size());
+    List<modulusMatrix> C(active_.size());
+    List<tensor> toRest(active_.size());
     forEach(0, n(), [&](label k) {
-        if (!active_[k]) return;
-        C[k] = restModulus(k);
-        held[k] = inStencil(volumeOf(k).tangent(tensor::Identity()), k);
+        toRest[k] = fromRest(tensor::Identity(), k).inverse();
+        if (active_[k]) C[k] = restModulus(k);
     });
     tangent_->assemble(C, List<scalar>(active_.size(), 0), K);
-    if (!prestretch_.empty())
-    {
-        List<tensor> toRest(active_.size());
-        forEach(0, n(), [&](label k) { toRest[k] = prestretch_[k].inverse(); });
-        forEach(0, n(), [&](label i) {
-            K.diagonal[i] *= toRest[i];
-            for (label s = K.rowStart[i]; s < K.rowStart[i + 1]; ++s)
-                K.value[s] *= toRest[K.column[s]];
-        });
-    }
-    blockMatrix3 holds = tangent_->pattern();
-    tangent_->assemble(held, star_, holds);
-    K.addScaled(1, holds);
+    forEach(0, n(), [&](label i) {
+        K.diagonal[i] *= toRest[i];
+        for (label s = K.rowStart[i]; s < K.rowStart[i + 1]; ++s)
+            K.value[s] *= toRest[K.column[s]];
+    });
 }
 
 void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, const List<scalar>& p,
