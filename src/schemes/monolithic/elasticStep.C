@@ -104,6 +104,12 @@ void elasticStep::includeOutside()
     withOutside_ = K_.plus(D);
 }
 
+void elasticStep::moveRest()
+{
+    structure_->assembleTangent(x0_, tangentKind::rest, K_);
+    includeOutside();
+}
+
 void elasticStep::addContact(const solidContact& contact, const List<vec4>& u)
 {
     contact_ = &contact;

@@ -157,7 +157,6 @@ void restSearch::setForces(elasticStep& elastic, coupledSystem& system, scalar t
     const auto outsidePressure = outside_.pressureAt(t, system.hydrostatic());
     c_.cloud.fillGhosts(c_.cloud.Up, false);
     elastic.begin(x, tau, surface_.overSurface(c_.cloud.Up, *volume_, outsidePressure));
-    elastic.moveRest();
     if (!outsidePressure) return;
     outside_.setStep(c_, surface_, system.hydrostatic(), {tau, t, x});
     elastic.addOutside(outside_.force(), outside_.resistance());
@@ -188,7 +187,8 @@ scalar restSearch::pass()
     setForces(elastic, system, tau);
     system.setup(tau, volume_.get(), &surface_, &elastic.tangent(), &elastic.stiffness());
     monolithicPreconditioner preconditioner(system, preconditioner_);
-    preconditioner.setup();
+    preconditioner.setup();  // with the tangent of a step, which is positive
+    elastic.moveRest();
 
     List<scalar> b, z(4 * cloud.n());
     for (label i = 0; i < cloud.n(); ++i) z[4 * i + 3] = cloud.Up[i][3];
