@@ -151,6 +151,25 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("the tangent of rest places that move is the slope of the force where they move back")
+{
+    structureReference ref = latticeBlock(5, 4, 0);
+    const List<vec4> x = atRest(ref);
+    const auto forceOf = [&](const List<vec4>& rest, List<vec4>& f) {
+        ref.rest.clear();
+        for (const vec4& X : rest) ref.rest.push_back(X.xyz());
+        lagrangian(ref)->force(x, f);
+    };
+    List<vec4> rest = shaken(ref, 0.15 * ref.dx), f;
+    for (vec4& X : rest) X.s *= simd4{0.8, 1.3, 1, 1};
+    forceOf(rest, f);
+    const auto model = lagrangian(ref);
+    blockMatrix3 J = model->tangentPattern(), back = J.withZeros();
+    model->assembleTangent(x, tangentKind::rest, J);
+    back.addScaled(-1, J);
+    CHECK(slopeError(*model, rest, back, forceOf) < 1e-7);
+}
+
 TEST_CASE("with a pressure the tangent has the slope of - p cof F too, and stays positive")
 {
     for (const structureReference& ref : bodies())

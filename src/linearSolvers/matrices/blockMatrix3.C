@@ -104,4 +104,10 @@ void blockMatrix3::addScaled(scalar a, const blockMatrix3& A)
     forEach(0, size(), [&](label i) { diagonal[i] += a * A.diagonal[i]; });
 }
 
+void blockMatrix3::scaleColumns(const List<tensor>& by)
+{
+    for (label i = 0; i < size(); ++i) diagonal[i] *= by[i];
+    for (size_t k = 0; k < value.size(); ++k) value[k] *= by[column[k]];
+}
+
 }  // namespace ispf

@@ -104,9 +104,10 @@ void elasticStep::includeOutside()
     withOutside_ = K_.plus(D);
 }
 
-void elasticStep::moveRest()
+void elasticStep::moveRest(const List<tensor>& toRest)
 {
     structure_->assembleTangent(x0_, tangentKind::rest, K_);
+    K_.scaleColumns(toRest);
     includeOutside();
 }
 

@@ -65,6 +65,7 @@ private:
     outsideWall outside_;
     std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
+    List<tensor> toRest_;  // dX/dx
 };
 
 List<scalar> restSearch::pressures(const dictionary& dict) const
@@ -102,8 +103,7 @@ scalar restSearch::stepLength() const
     return longStep * box.diagonal().norm() * std::sqrt(c_.rho / c_.structure->shearModulus());
 }
 
-// Moves the rest places against the motion in which the present shape would come to rest, (7.20).  Returns the largest
-// strain of it
+// (7.20).  Returns the largest strain of u
 scalar restSearch::moveRest(const List<scalar>& z, scalar tau)
 {
     const label n = c_.cloud.nSolid();
@@ -112,13 +112,12 @@ scalar restSearch::moveRest(const List<scalar>& z, scalar tau)
         if (!c_.cloud.uFixed[i]) d[i].s = tau * simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], 0};
     });
     List<vec4>& rest = c_.cloud.vectors.at(restPlaces);
-    List<tensor> change, toRest;
+    List<tensor> change;
     c_.structure->gradient().applyLinear(d, change);
-    c_.structure->gradient().apply(rest, toRest);
     const auto most = [&](const auto& size) { return largestOf(0, n, size); };
     const scalar gradient = most([&](label i) { return change[i].norm(); });
     const scalar share = std::min(scalar(1), longestPass / std::max(gradient, scalar(1e-30)));
-    forEach(0, n, [&](label i) { rest[i].s -= vec4::from(share * toRest[i] * d[i].xyz()).s; });
+    forEach(0, n, [&](label i) { rest[i].s -= vec4::from(share * toRest_[i] * d[i].xyz()).s; });
     return most([&](label i) { return scalar(0.5 * (change[i] + change[i].transpose()).norm()); });
 }
 
@@ -147,6 +146,7 @@ void restSearch::lookAtShape()
     surface_.initialise(cloud, c_.list, F, images);
     surface_.setup(cloud, c_.list, *c_.kernel, volume_->cofactor(), images);
     outside_.find(c_, surface_);
+    c_.structure->gradient().apply(cloud.vectors.at(restPlaces), toRest_);
 }
 
 // Sets the forces and the tangent at the first shape
@@ -165,10 +165,8 @@ void restSearch::setForces(elasticStep& elastic, coupledSystem& system, scalar t
 // det(dX/dx) - 1, over tau: the source with which the rest gets the volume of the image
 List<scalar> restSearch::missingVolume(scalar tau) const
 {
-    List<tensor> toRest;
-    c_.structure->gradient().apply(c_.cloud.vectors.at(restPlaces), toRest);
     List<scalar> q(c_.cloud.n(), 0);
-    forEach(0, c_.cloud.nSolid(), [&](label i) { q[i] = (toRest[i].determinant() - 1) / tau; });
+    forEach(0, c_.cloud.nSolid(), [&](label i) { q[i] = (toRest_[i].determinant() - 1) / tau; });
     return q;
 }
 
@@ -188,7 +186,7 @@ scalar restSearch::pass()
     system.setup(tau, volume_.get(), &surface_, &elastic.tangent(), &elastic.stiffness());
     monolithicPreconditioner preconditioner(system, preconditioner_);
     preconditioner.setup();  // with the tangent of a step, which is positive
-    elastic.moveRest();
+    elastic.moveRest(toRest_), volume_->moveRest(toRest_);
 
     List<scalar> b, z(4 * cloud.n());
     for (label i = 0; i < cloud.n(); ++i) z[4 * i + 3] = cloud.Up[i][3];
@@ -245,7 +243,8 @@ void restSearch::run()
         "No shape at rest is found for prestress: the last pass changes its strain by " +
             str(strain, 3) + ", and " + str(tolerance_, 3) + " is asked for (tolerance, maxIter " +
             std::to_string(maxIter_) +
-            "). Is the pressure more than the wall can carry? Then try a smaller one. Is a part of "
+            "). Would the rest be so narrow that the particles cannot tell it, or is the pressure "
+            "more than the wall can carry? Then try a smaller one. Is a part of "
             "the solid held nowhere? Then clamp some of it, or hold it by outside.stiffness",
         dict_.where());
 }

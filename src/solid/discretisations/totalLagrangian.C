@@ -317,17 +317,10 @@ modulusMatrix totalLagrangian::restModulus(label k) const
 void totalLagrangian::assembleRest(blockMatrix3& K) const
 {
     List<modulusMatrix> C(active_.size());
-    List<tensor> toRest(active_.size());
     forEach(0, n(), [&](label k) {
-        toRest[k] = fromRest(tensor::Identity(), k).inverse();
         if (active_[k]) C[k] = restModulus(k);
     });
     tangent_->assemble(C, List<scalar>(active_.size(), 0), K);
-    forEach(0, n(), [&](label i) {
-        K.diagonal[i] *= toRest[i];
-        for (label s = K.rowStart[i]; s < K.rowStart[i + 1]; ++s)
-            K.value[s] *= toRest[K.column[s]];
-    });
 }
 
 void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, const List<scalar>& p,

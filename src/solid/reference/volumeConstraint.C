@@ -33,11 +33,21 @@ void volumeConstraint::setup(const List<tensor>& F)
         256);
 }
 
+void volumeConstraint::moveRest(const List<tensor>& toRest)
+{
+    toRest_ = toRest, restCofactor_.clear();
+    for (const tensor& H : toRest) restCofactor_.push_back(cofactorOf(H));
+}
+
 void volumeConstraint::rate(const List<vec4>& u, List<scalar>& dJ, List<tensor>& dF) const
 {
-    gradient_.applyLinear(u, dF);
+    const bool moves = !toRest_.empty();
+    List<vec4> w(toRest_.size());
+    forEach(0, label(w.size()), [&](label i) { w[i] = vec4::from(toRest_[i] * u[i].xyz()); });
+    gradient_.applyLinear(moves ? w : u, dF);
     dJ.resize(dF.size());
-    forEach(0, label(dF.size()), [&](label i) { dJ[i] = cofactor_[i].cwiseProduct(dF[i]).sum(); });
+    const List<tensor>& cofactor = moves ? restCofactor_ : cofactor_;
+    forEach(0, label(dF.size()), [&](label i) { dJ[i] = cofactor[i].cwiseProduct(dF[i]).sum(); });
 }
 
 // D u_i = sum_j g_ij.(u_j - u_i) with g_ij = w_ij cof F_i B_i R_ij: p_i acts on j with the force V g_ij
