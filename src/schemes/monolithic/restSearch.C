@@ -103,21 +103,23 @@ scalar restSearch::stepLength() const
     return longStep * box.diagonal().norm() * std::sqrt(c_.rho / c_.structure->shearModulus());
 }
 
-// (7.20).  Returns the largest strain of u
+// (7.20).  Returns the largest strain of the rest in it
 scalar restSearch::moveRest(const List<scalar>& z, scalar tau)
 {
     const label n = c_.cloud.nSolid();
-    List<vec4> d(n);
+    List<vec4> w(n);
     forEach(0, n, [&](label i) {
-        if (!c_.cloud.uFixed[i]) d[i].s = tau * simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], 0};
+        const vector u(z[4 * i], z[4 * i + 1], z[4 * i + 2]);
+        if (!c_.cloud.uFixed[i]) w[i] = vec4::from(tau * toRest_[i] * u);
     });
-    List<vec4>& rest = c_.cloud.vectors.at(restPlaces);
-    List<tensor> change;
-    c_.structure->gradient().applyLinear(d, change);
+    List<tensor> change;  // over places at rest: a turn of the rest has no strain
+    c_.structure->gradient().applyLinear(w, change);
+    forEach(0, n, [&](label i) { change[i] *= toRest_[i].inverse().eval(); });
     const auto most = [&](const auto& size) { return largestOf(0, n, size); };
     const scalar gradient = most([&](label i) { return change[i].norm(); });
     const scalar share = std::min(scalar(1), longestPass / std::max(gradient, scalar(1e-30)));
-    forEach(0, n, [&](label i) { rest[i].s -= vec4::from(share * toRest_[i] * d[i].xyz()).s; });
+    List<vec4>& rest = c_.cloud.vectors.at(restPlaces);
+    forEach(0, n, [&](label i) { rest[i].s -= share * w[i].s; });
     return most([&](label i) { return scalar(0.5 * (change[i] + change[i].transpose()).norm()); });
 }
 
