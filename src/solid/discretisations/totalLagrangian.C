@@ -12,6 +12,7 @@
 //     radius     1.75;                            // reach of the neighbours of F_k [dx]
 //
 // Where moduli differ the defaults are 1 and the support of the kernel: p and the stress jump there, section 5.8.
+#include "followerTies.H"
 #include "forPairs.H"
 #include "stencilTangent.H"
 #include "structureModel.H"
@@ -83,7 +84,8 @@ public:
               ref_, dict.getInRangeOrDefault("radius", 1.2, 4,
                                              materials_.differ() ? ref_.support / ref_.dx : 1.75))),
           fit_(near_),
-          pairs_(fit_.neighbours())
+          pairs_(fit_.neighbours()),
+          ties_(ref_, fit_, moduli())
     {
         G_ = materials_.stiffest();
         setPrestretch();
@@ -101,7 +103,7 @@ public:
     scalar energy(const List<vec4>& x) const override;
     void stress(const List<vec4>& x, List<tensor>& tau) const override;
     bool stress(const motion& m, List<tensor>& tau) const override;
-    blockMatrix3 tangentPattern() const override { return tangent_->pattern(); }
+    blockMatrix3 tangentPattern() const override { return ties_.withPattern(tangent_->pattern()); }
     using structureModel::assembleTangent;
     void assembleTangent(const List<vec4>& x, tangentKind kind, const List<scalar>& p,
                          blockMatrix3& K) const override;
@@ -113,6 +115,7 @@ public:
     solidMemory* memory() override { return networks_.get(); }
 
 private:
+    List<scalar> moduli() const;
     void setPrestretch();
     void findActive();
     void setMoments();
@@ -159,13 +162,22 @@ private:
     const structureReference near_;  // the solid at rest, with neighbours up to `radius`
     const referenceGradient fit_;    // F of the energy
     const referenceNeighbours& pairs_;
+    const followerTies ties_;
     List<tensor> prestretch_;  // F0 of (7.19); empty: none
-    List<char> active_;        // per k: it or one of its neighbours is free
-    List<tensor> moment_;      // M_k [m^2]
-    List<scalar> star_;        // c_k of (5.20), zero where k is not active
+    List<char>
+        active_;  // per k: it or one of its neighbours is free, and it does not follow another
+    List<tensor> moment_;  // M_k [m^2]
+    List<scalar> star_;    // c_k of (5.20), zero where k is not active
     std::unique_ptr<stencilTangent> tangent_;
     std::unique_ptr<transientNetworks> networks_;  // null: no material has a memory
 };
+
+List<scalar> totalLagrangian::moduli() const
+{
+    List<scalar> G;
+    for (label k = 0; k < n(); ++k) G.push_back(materials_.shearModulus(k));
+    return G;
+}
 
 void totalLagrangian::setPrestretch()
 {
@@ -185,16 +197,18 @@ void totalLagrangian::fromRest(const List<vec4>& x, List<tensor>& F) const
 void totalLagrangian::findActive()
 {
     for (label k = 0; k < n(); ++k)
-        active_.push_back(!ref_.fixed[k] ||
-                          anyNeighbour<among::all>(
-                              pairs_, k, [&](pairIndex, label j) { return !ref_.fixed[j]; }));
+        active_.push_back(
+            !fit_.follows(k) &&
+            (!ref_.fixed[k] || anyNeighbour<among::all>(
+                                   pairs_, k, [&](pairIndex, label j) { return !ref_.fixed[j]; })));
 }
 
 void totalLagrangian::setMoments()
 {
     for (label k = 0; k < n(); ++k)
     {
-        tensor M = fit_.inverseMoment(k).inverse();
+        tensor M = tensor::Zero();
+        if (!fit_.follows(k)) M = fit_.inverseMoment(k).inverse();
         if (ref_.nDims == 2) M(2, 2) = 0;
         moment_.push_back(M);
         star_.push_back(active_[k] ? zeroEnergy_ * materials_.shearModulus(k) * ref_.volume() *
@@ -222,24 +236,25 @@ void totalLagrangian::force(const List<vec4>& x, List<vec4>& f) const
     forPairs<among::all>(pairs_, 0, n(), [&](label i, pairIndex p, label j) {
         f[i].s += vec4::from((star_[i] + star_[j]) * fit_.weight(p) * bond(x, i, p)).s;
     });
+    ties_.addForce(x, f);
 }
 
 scalar totalLagrangian::energy(const List<vec4>& x) const
 {
     List<tensor> F;
     fit_.apply(x, F);
-    return parallelSum(n(), [&](label begin, label end) {
-        scalar sum = 0;
-        for (label k = begin; k < end; ++k)
-        {
-            if (!active_[k]) continue;
-            sum += ref_.volume() * energyOf(F[k], k);
-            forNeighbours<among::all>(pairs_, k, [&](pairIndex p, label) {
-                sum += 0.5 * star_[k] * fit_.weight(p) * missed(x, F[k], k, p).squaredNorm();
-            });
-        }
-        return sum;
-    });
+    return ties_.energy(x) + parallelSum(n(), [&](label begin, label end) {
+               scalar sum = 0;
+               for (label k = begin; k < end; ++k)
+               {
+                   if (!active_[k]) continue;
+                   sum += ref_.volume() * energyOf(F[k], k);
+                   forNeighbours<among::all>(pairs_, k, [&](pairIndex p, label) {
+                       sum += 0.5 * star_[k] * fit_.weight(p) * missed(x, F[k], k, p).squaredNorm();
+                   });
+               }
+               return sum;
+           });
 }
 
 // (5.24)
@@ -262,6 +277,7 @@ void totalLagrangian::stress(const List<vec4>& x, List<tensor>& tau) const
             }
         },
         256);
+    ties_.addStress(x, tau);
 }
 
 // That of the material at F F0, for a change of F
@@ -296,7 +312,7 @@ modulusMatrix totalLagrangian::modulus(const tensor& F, tangentKind kind, label 
     return C;
 }
 
-// (7.27): Cauchy's stress over grad w, where the rest places move by - w
+// (7.26): change of Cauchy's stress over grad w, where the rest places move by - w
 modulusMatrix totalLagrangian::restModulus(label k) const
 {
     const tensor one = tensor::Identity(), F0 = fromRest(one, k);
@@ -313,7 +329,7 @@ modulusMatrix totalLagrangian::restModulus(label k) const
     return ref_.volume() * C;
 }
 
-// (7.26)
+// J of (7.27).  The rest of a particle that follows others follows them too
 void totalLagrangian::assembleRest(blockMatrix3& K) const
 {
     List<modulusMatrix> C(active_.size());
@@ -321,6 +337,7 @@ void totalLagrangian::assembleRest(blockMatrix3& K) const
         if (active_[k]) C[k] = restModulus(k);
     });
     tangent_->assemble(C, List<scalar>(active_.size(), 0), K);
+    ties_.addTangent(K);
 }
 
 void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, const List<scalar>& p,
@@ -338,6 +355,7 @@ void totalLagrangian::assembleTangent(const List<vec4>& x, tangentKind kind, con
         },
         64);
     tangent_->assemble(C, star_, K);
+    ties_.addTangent(K);
 }
 
 // tau of (5.14), (5.32) and (5.28)
@@ -378,6 +396,7 @@ List<label> totalLagrangian::linkCounts() const
 {
     List<label> count;
     for (label k = 0; k < n(); ++k) count.push_back(active_[k] ? pairs_.count(k) : 0);
+    ties_.addLinkCounts(count);
     return count;
 }
 
@@ -385,7 +404,7 @@ word totalLagrangian::description() const
 {
     return "totalLagrangian, " + materials_.description() + ", " +
            str(scalar(pairs_.nPairs()) / n(), 3) + " neighbours per particle, zeroEnergy " +
-           str(zeroEnergy_, 3);
+           str(zeroEnergy_, 3) + ties_.summary();
 }
 
 }  // namespace

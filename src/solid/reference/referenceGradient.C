@@ -2,12 +2,18 @@
 #include "referenceGradient.H"
 #include "forPairs.H"
 #include "messages.H"
+#include "pointGrid.H"
+
+#include <numeric>
 
 namespace ispf
 {
 
 namespace
 {
+
+// [dx] a particle at a sharp tip follows one no farther away than this
+constexpr scalar followReach = 8;
 
 // Sum of w (x_j - x_i)(X_j - X_i)^T over the pairs of row i without images
 ISPF_HOT void addOwn(const referenceNeighbours& pairs, const scalar* weight, const vec4* x,
@@ -55,8 +61,10 @@ referenceGradient::referenceGradient(const structureReference& ref)
       pairs_(ref, ref.support),
       X_(ref.n()),
       weight_(size_t(pairs_.nPairs())),
-      B_(ref.n())
+      B_(ref.n()),
+      leader_(ref.n())
 {
+    std::iota(leader_.begin(), leader_.end(), 0);
     for (label i = 0; i < ref.n(); ++i) X_[i] = vec4::from(ref.x0[i]);
     const scalar dx2 = ref.dx * ref.dx;
     parallelFor(
@@ -73,18 +81,43 @@ referenceGradient::referenceGradient(const structureReference& ref)
                 });
                 if (ref.nDims == 2) moment(2, 2) = 0.5 * moment.trace();
                 const scalar mean = moment.trace() / 3;
-                if (!(moment.determinant() > 1e-4 * mean * mean * mean) || mean < 1e-9 * dx2)
-                    throw fatalError(
-                        "Solid particle " + std::to_string(i) + " at (" + str(ref.x0[i][0]) + " " +
-                        str(ref.x0[i][1]) + " " + str(ref.x0[i][2]) + ") has " +
-                        std::to_string(pairs_.count(i)) + " solid neighbours, all in one " +
-                        (ref.nDims == 3 ? "plane" : "line") +
-                        ": the wall is less than two layers thick there. Use a smaller dx; cut "
-                        "off a sharp tip, which ends in such a particle at any dx");
-                B_[i] = moment.inverse();
+                const bool spans =
+                    moment.determinant() > 1e-4 * mean * mean * mean && mean >= 1e-9 * dx2;
+                if (spans) B_[i] = moment.inverse();
+                else B_[i].setZero(), leader_[i] = -1;
             }
         },
         64);
+    findLeaders();
+}
+
+void referenceGradient::findLeaders()
+{
+    for (label i = 0; i < ref_.n(); ++i)
+        if (leader_[i] < 0) followers_.push_back(i);
+    if (followers_.empty()) return;
+    const scalar reach = followReach * ref_.dx;
+    pointGrid spanning(reach);
+    List<label> source;
+    for (label i = 0; i < ref_.n(); ++i)
+        if (leader_[i] == i) spanning.add(ref_.x0[i]), source.push_back(i);
+    const auto zoneOf = [&](label i) { return ref_.zone.empty() ? 0 : ref_.zone[i]; };
+    for (const label i : followers_)
+    {
+        const vector& X = ref_.x0[i];
+        scalar least = reach;
+        spanning.within(X, reach, [&](label k, scalar r) {
+            if (r < least && zoneOf(source[k]) == zoneOf(i)) least = r, leader_[i] = source[k];
+        });
+        if (leader_[i] < 0)
+            throw fatalError(
+                "Solid particle " + std::to_string(i) + " at (" + str(X[0]) + " " + str(X[1]) +
+                " " + str(X[2]) + ") has " + std::to_string(pairs_.count(i)) +
+                " solid neighbours, all in one " + (ref_.nDims == 3 ? "plane" : "line") +
+                ", and no particle within " + str(followReach) +
+                " dx whose neighbours are not: the wall is less than two layers thick there. "
+                "Use a smaller dx");
+    }
 }
 
 void referenceGradient::evaluateRange(const List<vec4>& x, scalar shift, label begin, label end,
@@ -110,6 +143,7 @@ void referenceGradient::evaluate(const List<vec4>& x, scalar shift, List<tensor>
     parallelFor(
         ref_.n(), [&](label begin, label end) { evaluateRange(x, shift, begin, end, F.data()); },
         256);
+    for (const label i : followers_) F[i] = F[leader_[i]];
 }
 
 void referenceGradient::apply(const List<vec4>& x, List<tensor>& F) const
@@ -127,8 +161,9 @@ void referenceGradient::forces(const List<tensor>& P, List<vec4>& f) const
     const label n = ref_.n();
     List<tensor> A(n);
     List<vec4> columns(3 * n);
+    forEach(0, n, [&](label i) { A[i] = ref_.volume() * P[i] * B_[i]; });
+    for (const label i : followers_) A[leader_[i]] += ref_.volume() * P[i] * B_[leader_[i]];
     forEach(0, n, [&](label i) {
-        A[i] = ref_.volume() * P[i] * B_[i];
         for (int b = 0; b < 3; ++b) columns[3 * i + b] = vec4::from(A[i].col(b));
     });
     f.resize(std::max<size_t>(f.size(), size_t(n)));

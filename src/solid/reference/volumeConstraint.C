@@ -17,7 +17,7 @@ volumeConstraint::volumeConstraint(const structureModel& s)
         bool acts = !ref_.fixed[i];
         forNeighbours<among::all>(gradient_.neighbours(), i,
                                   [&](pairIndex, label j) { acts = acts || !ref_.fixed[j]; });
-        acts_[i] = acts;
+        acts_[i] = acts && !gradient_.follows(i);
     });
 }
 

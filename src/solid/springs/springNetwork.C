@@ -13,6 +13,7 @@
 // t is the link's force over d, s its slope (linkLaw.H): k (1 - d0/d) and k if the link is linear.
 //
 // A link to an image of the particle itself has its -A R in an entry of column i: K_ii is the same as in a whole body.
+#include "followerTies.H"
 #include "linkLaw.H"
 #include "springLinks.H"
 #include "structureModel.H"
@@ -89,7 +90,8 @@ public:
     {
         const springLinks all(dict, ref_);
         G_ = all.G;
-        summary_ = "springNetwork, " + law.description() + all.summary;
+        ties_ = std::make_unique<followerTies>(ref_, gradient_, List<scalar>(size_t(n()), G_));
+        summary_ = "springNetwork, " + law.description() + all.summary + ties_->summary();
         links_ = movingLinks(all, ref_.fixed);
         makePattern();
     }
@@ -116,6 +118,7 @@ private:
 
     const Law law_;
     linkTable links_;
+    std::unique_ptr<followerTies> ties_;
     blockMatrix3 pattern_;  // without values
     word summary_;
 };
@@ -132,13 +135,17 @@ void springNetwork<Law>::makePattern()
         std::sort(columns.begin(), columns.end());
         pattern_.column.insert(pattern_.column.end(), columns.begin(),
                                std::unique(columns.begin(), columns.end()));
-        const label first = pattern_.rowStart.back(), last = label(pattern_.column.size());
+        pattern_.rowStart.push_back(label(pattern_.column.size()));
+    }
+    pattern_ = ties_->withPattern(std::move(pattern_));
+    for (label i = 0; i < n(); ++i)
+    {
+        const label first = pattern_.rowStart[i], last = pattern_.rowStart[i + 1];
         forNeighbours<among::all>(links_, i, [&](pairIndex p, label j) {
-            const auto at =
-                std::lower_bound(pattern_.column.begin() + first, pattern_.column.end(), j);
+            const auto at = std::lower_bound(pattern_.column.begin() + first,
+                                             pattern_.column.begin() + last, j);
             links_.slot[p] = label(at - pattern_.column.begin());
         });
-        pattern_.rowStart.push_back(last);
     }
 }
 
@@ -161,19 +168,21 @@ void springNetwork<Law>::force(const List<vec4>& x, List<vec4>& f) const
             }
         },
         256);
+    ties_->addForce(x, f);
 }
 
 template <class Law>
 scalar springNetwork<Law>::energy(const List<vec4>& x) const
 {
-    return parallelSum(n(), [&](label begin, label end) {
-        scalar sum = 0;
-        for (label i = begin; i < end; ++i)
-            forNeighbours<among::all>(links_, i, [&](pairIndex p, label) {
-                sum += 0.5 * law_.energy(links_.k[p], links_.d0[p], separation(x, i, p).norm());
-            });
-        return sum;
-    });
+    return ties_->energy(x) + parallelSum(n(), [&](label begin, label end) {
+               scalar sum = 0;
+               for (label i = begin; i < end; ++i)
+                   forNeighbours<among::all>(links_, i, [&](pairIndex p, label) {
+                       sum +=
+                           0.5 * law_.energy(links_.k[p], links_.d0[p], separation(x, i, p).norm());
+                   });
+               return sum;
+           });
 }
 
 template <class Law>
@@ -185,6 +194,7 @@ void springNetwork<Law>::stress(const List<vec4>& x, List<tensor>& tau) const
         const scalar tension = law_.tension(links_.k[p], links_.d0[p], e.norm());
         tau[i] += tension / (2 * ref_.volume()) * e * e.transpose();
     });
+    ties_->addStress(x, tau);
 }
 
 template <class Law>
@@ -213,6 +223,7 @@ void springNetwork<Law>::assembleTangent(const List<vec4>& x, tangentKind kind, 
             for (label i = begin; i < end; ++i) tangentRow(x, kind == tangentKind::positive, i, K);
         },
         256);
+    ties_->addTangent(K);
 }
 
 template <class Law>
@@ -220,6 +231,7 @@ List<label> springNetwork<Law>::linkCounts() const
 {
     List<label> count;
     for (label i = 0; i < n(); ++i) count.push_back(label(rowOf<among::all>(links_, i).size()));
+    ties_->addLinkCounts(count);
     return count;
 }
 

@@ -20,6 +20,26 @@ namespace
 constexpr const char* areaField[2] = {"surfaceAreaA", "surfaceAreaB"};  // {S0, zone + 1}
 constexpr const char* wayField[2] = {"surfaceWayA", "surfaceWayB"};     // {e0, -}
 
+// [-] a foot at a sharp tip looks up to so many times farther for particles that span the space, by half more at a time
+constexpr scalar farther = 5;
+
+// The particles near a foot, with their weights and slopes [1/m] (followWeights.H)
+void findFoot(const pointGrid& solids, const vector& foot, int nDims, scalar usual,
+              List<label>& near, List<scalar>& weight, List<vector>& slope)
+{
+    scalar spanned = 0;  // number of directions
+    for (scalar reach = usual; spanned < nDims - 0.5 && reach < farther * usual; reach *= 1.5)
+    {
+        near.clear(), slope.clear(), spanned = 0;
+        List<vector> r;
+        solids.within(foot, reach, [&](label k, scalar) { near.push_back(k); });
+        std::sort(near.begin(), near.end());
+        for (const label k : near) r.push_back((solids[k] - foot) / reach);
+        weight = followWeights(r, &slope);
+        for (size_t k = 0; k < slope.size(); ++k) spanned += slope[k].dot(r[k]), slope[k] /= reach;
+    }
+}
+
 }  // namespace
 
 List<sideAtRest> sidesAtRest(const particleCloud& cloud, label k)
@@ -122,11 +142,7 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
                 {
                     if (A[i][3] == 0) continue;
                     const vector foot = rest[i] + e[i].xyz();
-                    List<vector> r;
-                    solids.grid.within(foot, reach, [&](label k, scalar) { near[i].push_back(k); });
-                    std::sort(near[i].begin(), near[i].end());
-                    for (const label k : near[i]) r.push_back((solids.grid[k] - foot) / reach);
-                    weight[i] = followWeights(r, &slope[i]);
+                    findFoot(solids.grid, foot, cloud.nDims, reach, near[i], weight[i], slope[i]);
                 }
             },
             16);
@@ -137,7 +153,7 @@ void solidSurface::findFeet(const particleCloud& cloud, scalar support,
             for (const label k : near[i])
                 f.index.push_back(solids.source[k]), f.image.push_back(solids.image[k]);
             f.weight.insert(f.weight.end(), weight[i].begin(), weight[i].end());
-            for (const vector& g : slope[i]) f.slope.push_back(g / reach);
+            f.slope.insert(f.slope.end(), slope[i].begin(), slope[i].end());
             f.start.push_back(label(f.index.size()));
         }
     }

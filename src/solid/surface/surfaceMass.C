@@ -22,9 +22,10 @@ List<part> motionOf(const structureModel& structure, label k, const vector& e0)
     tensor one = tensor::Zero();
     one.diagonal().head(ref.nDims).setOnes();
     List<part> parts = {{k, one}};
-    forNeighbours<among::all>(pairs, k, [&](pairIndex p, label a) {
-        const scalar w = structure.gradient().slope(k, p).dot(e0);
-        parts[0].weight -= w * one;
+    const label leader = structure.gradient().leader(k);
+    forNeighbours<among::all>(pairs, leader, [&](pairIndex p, label a) {
+        const scalar w = structure.gradient().slope(leader, p).dot(e0);
+        parts.push_back({leader, -w * one});
         parts.push_back({a, w * one});
         if (pairs.image[p]) parts.back().weight *= ref.images[pairs.image[p] - 1].R;
     });
