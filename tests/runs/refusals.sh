@@ -244,4 +244,31 @@ refused "It names no zone and has no effect"
 sed -i '/^bodyForce/d' constant/physicalProperties
 echo "functions { most { type minMax; fields (); } }" >> $control
 refused "It names no field and has no effect"
+
+# ---- entries of a structure without effect -----------------------------------------------------------------
+bareCase still
+cat > system/particleDict <<'PARTICLES'
+dx 1e-3; nDims 2;
+zones
+{
+    water { phase fluid; shape box; min (0 0 0); max (16e-3 16e-3 0); }
+    a { phase solid; shape cylinder; point1 (8e-3 8e-3 0); point2 (8e-3 8e-3 1); radius 4e-3; }
+}
+PARTICLES
+echo "walls { type wall; }" > constant/boundary
+echo "rho 1000; mu 1e-3;" > constant/physicalProperties
+echo "endTime 2e-3; deltaT 1e-3; writeControl none;" > $control
+echo "coupling monolithic;" > $solution
+place
+body() { echo "structureModel totalLagrangian; $1" > constant/structureProperties; }
+for entry in "gap 0;" "gap 1.5; viscosity 1;"; do
+    body "material { type neoHookean; G 1e4; } contact { $entry }"
+    refused "no effect. Give more, or leave 'contact' away"; says "structureProperties.contact.* at line 1"
+done
+body "material { type HolzapfelGasserOgden; G 1e4; k1 1e3; k2 1; fibres { type uniform; directions ((0 0 1)); } }"
+refused "across the plane of a two-dimensional case"
+body "material { type neoHookean; G 1e4; }"
+solved
+echo "densityFeedback 1;" >> $solution
+refused "before open faces, and the case has none: it has no effect"
 [ $failures = 0 ]

@@ -168,6 +168,13 @@ TEST_CASE("a wrong material: the message lists the valid types and ranges")
     const word HGO = "type HolzapfelGasserOgden; G 1; k1 1; k2 1; ";
     CHECK(error(HGO + "kappa 0.4; " + along1).find("kappa") != word::npos);
     CHECK(error(HGO + "fibres { type woven; }").find("uniform") != word::npos);
+    CHECK(error("type HolzapfelGasserOgden; G 1; k1 0; k2 1; " + along1).find("neoHookean") !=
+          word::npos);
+    CHECK(error(HGO + "fibres { type helix; point (1 0 0); axis (0 0 2); angles (30 400); }")
+              .find("-180 to 180") != word::npos);
+    const word across = "fibres { type uniform; directions ((1 0 0) (0 0 1)); }";
+    CHECK(error(HGO + across).find("across the plane") != word::npos);
+    CHECK(error(HGO + "kappa 0.1; " + across).empty());
     CHECK(error(HGO + "fibres { type uniform; directions ((0 0 0)); }")
               .find("no direction at (1 2 0)") != word::npos);
     CHECK(

@@ -14,6 +14,8 @@ namespace
 // Cosine of the angle between normals of surfaces that face each other, at most
 constexpr scalar opposite = -0.7;
 
+const word remedy = "Give more, or leave 'contact' away";
+
 }  // namespace
 
 std::unique_ptr<closedGaps> closedGaps::New(const dictionary& structureProperties)
@@ -27,6 +29,11 @@ closedGaps::closedGaps(const dictionary& dict)
       factor_(dict.getInRangeOrDefault<scalar>("viscosity", 1, 1e6, 100))
 {
     dict.refuseOthers({"gap", "viscosity"});
+    if (gap_ == 0) dict.fail("gap", "A gap of 0 closes no layer and has no effect. " + remedy);
+    if (factor_ == 1)
+        dict.fail(
+            "viscosity",
+            "Fluid with 1 times its own viscosity flows as before: it has no effect. " + remedy);
 }
 
 bool closedGaps::face(const facing& a, const facing& b, scalar most)

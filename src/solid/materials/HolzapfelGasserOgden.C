@@ -9,6 +9,7 @@
 #include "fibres.H"
 #include "isochoricLaw.H"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ispf
@@ -27,6 +28,14 @@ public:
           kappa_(dict.getInRangeOrDefault("kappa", 0, 1.0 / 3, 0)),
           fibres_(dict.subDict("fibres"), x0)
     {
+        if (k1_ == 0)
+            dict.fail("k1", "Fibres of stiffness 0 have no effect. Give more, or take neoHookean");
+        for (label a = 0; kappa_ == 0 && a < fibres_.nFamilies(); ++a)
+            if (inPlane(x0) && across(a, label(x0.size())))
+                dict.subDict("fibres").fail(
+                    "type", "The fibres of family " + std::to_string(a + 1) +
+                                " lie across the plane of a two-dimensional case, which does not "
+                                "stretch them: they have no effect. Give directions in the plane");
     }
 
     scalar shearModulus() const override { return G_; }
@@ -37,6 +46,19 @@ public:
     }
 
 private:
+    // True in two dimensions
+    static bool inPlane(const List<vector>& x0)
+    {
+        return std::all_of(x0.begin(), x0.end(), [](const vector& x) { return x[2] == 0; });
+    }
+    // True if the fibres of a family lie along z at all n particles
+    bool across(label family, label n) const
+    {
+        for (label k = 0; k < n; ++k)
+            if (fibres_.of(family, k).head<2>().norm() > 1e-6) return false;
+        return true;
+    }
+
     // E_a and dE_a/dC
     scalar strain(const tensor& C, label family, label k) const
     {

@@ -33,6 +33,8 @@ List<direction> helix(const dictionary& dict)
     List<direction> all;
     for (const scalar degrees : dict.get<List<scalar>>("angles"))
     {
+        if (!(std::abs(degrees) <= 180))
+            dict.fail("angles", "The angle " + str(degrees) + " must be from -180 to 180 degrees");
         const scalar angle = degrees * M_PI / 180;
         all.push_back([=](const vector& x) -> vector {
             const vector around = along.cross(x - point);
