@@ -271,4 +271,29 @@ body "material { type neoHookean; G 1e4; }"
 solved
 echo "densityFeedback 1;" >> $solution
 refused "before open faces, and the case has none: it has no effect"
+# ---- a soft layer in a stiff one under a pressure far above its shear modulus: one warning ------------------
+bareCase soft
+cat > system/particleDict <<'PARTICLES'
+dx 1e-3; nDims 2;
+zones
+{
+    inner { phase solid; shape annulus; point1 (0 0 0); innerRadius 10e-3; outerRadius 13e-3; }
+    outer { phase solid; shape annulus; point1 (0 0 0); innerRadius 13e-3; outerRadius 16e-3; }
+    lumen { phase fluid; shape annulus; point1 (0 0 0); innerRadius 5e-3; outerRadius 10e-3; }
+}
+patches { inlet { box ((-5.1e-3 -5.1e-3 -1) (5.1e-3 5.1e-3 1)); } }
+PARTICLES
+echo "left { type symmetryPlane; point (0 0 0); normal (-1 0 0); } below { type symmetryPlane; point (0 0 0); normal (0 -1 0); }
+    inlet { type open; p 1e3; }" > constant/boundary
+echo "rho 1000; mu 1e-3;" > constant/physicalProperties
+echo "endTime 2e-3; deltaT 1e-3; writeControl none;" > $control
+echo "coupling monolithic;" > $solution
+place
+for G in 10 1e5; do
+    echo "structureModel totalLagrangian; materials { inner { type neoHookean; G $G; } outer { type neoHookean; G 2e5; } }" \
+        > constant/structureProperties
+    solved
+    warnings=$(grep -c "The pressure in zone inner is .* times its shear modulus G" log)
+    [ $G-$warnings = 10-1 ] || [ $G-$warnings = 1e5-0 ] || fail "G $G: $warnings warnings of a soft layer"
+done
 [ $failures = 0 ]

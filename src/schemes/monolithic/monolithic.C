@@ -24,6 +24,7 @@
 #include "particleShifting.H"
 #include "restSearch.H"
 #include "shiftingFrame.H"
+#include "softZones.H"
 #include "stepReport.H"
 #include "stepSources.H"
 #include "worstRow.H"
@@ -131,6 +132,7 @@ private:
     std::unique_ptr<solidContact> contact_;
     std::unique_ptr<closedGaps> gaps_;  // null: fluid between solids is as elsewhere
     std::unique_ptr<outsideWall> outside_;
+    softZones soft_;
     List<tensor> F_;
     volumeSources sources_;
     List<scalar> q_;     // their sum in the step [1/s]
@@ -236,6 +238,7 @@ void monolithic::accept(const List<scalar>& z)
         const scalar p = system_.rows().acts(i) ? z[4 * i + 3] : 0;
         cloud.Up[i].s = simd4{z[4 * i], z[4 * i + 1], z[4 * i + 2], p};
     });
+    soft_.warn(c_);
 }
 
 // Coefficients of (7.1) and (7.2) for the present neighbours
