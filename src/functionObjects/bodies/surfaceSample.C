@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace ispf
 {
@@ -27,13 +28,23 @@ namespace ispf
 namespace
 {
 
+// U and p are written of the fluid in any case, and no field twice
+List<particleField> further(const List<particleField>& all)
+{
+    std::set<word> written = {"U", "p"};
+    List<particleField> others;
+    for (const particleField& f : all)
+        if (written.insert(f.name()).second) others.push_back(f);
+    return others;
+}
+
 class surfaceSample : public functionObject
 {
 public:
     surfaceSample(const word& name, const dictionary& dict, const fsiCase& c)
         : functionObject(name, dict, c),
           vtk_(dict.chooseOrDefault("surfaceFormat", {"vtk", "raw"}, "vtk") == "vtk"),
-          fields_(fieldsOf(c.cloud, dict, {}, &c)),
+          fields_(further(fieldsOf(c.cloud, dict, {}, &c))),
           bodies_(loadedBody::chosen(dict, c))
     {
         for (const particleField& f : fields_)
