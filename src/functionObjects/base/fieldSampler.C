@@ -88,6 +88,16 @@ void fieldSampler::update(const List<vector>& points)
         64);
 }
 
+vector fieldSampler::nearest(const vector& point) const
+{
+    vector found = vector::Constant(std::numeric_limits<scalar>::infinity());
+    for (label i = 0; i < case_.cloud.n(); ++i)
+        if (const vector x = places()[i].xyz();
+            chosen_(case_.cloud, i) && (x - point).norm() < (found - point).norm())
+            found = x;
+    return found;
+}
+
 scalar fieldSampler::sample(const particleField& f, size_t point) const
 {
     if (weights_[point].empty()) return none;

@@ -14,7 +14,6 @@
 #include "dataFile.H"
 #include "fieldSampler.H"
 #include "fileNames.H"
-#include <cmath>
 #include <fstream>
 
 namespace ispf
@@ -41,6 +40,7 @@ public:
           files_(fields_.size())
     {
         if (points_.empty()) dict.fail("probeLocations", "At least one point (x y z) is wanted.");
+        if (frame == fieldSampler::frame::rest) refuseUnreached(dict);
     }
 
     void write() override
@@ -66,13 +66,29 @@ private:
         return {"U", "p"};
     }
 
+    // A point of the solid is at the same place of the rest for ever
+    void refuseUnreached(const dictionary& dict)
+    {
+        sampler_.update(points_);
+        for (size_t k = 0; k < points_.size(); ++k)
+            if (!sampler_.reaches(k))
+                dict.fail("probeLocations", "No solid is at rest within reach of probe " +
+                                                std::to_string(k) + " at " + at(points_[k]) +
+                                                "; the nearest particle is at " +
+                                                at(sampler_.nearest(points_[k])));
+    }
+
+    static word at(const vector& x)
+    {
+        return "(" + str(x[0]) + " " + str(x[1]) + " " + str(x[2]) + ")";
+    }
+
     void tellUnreached() const
     {
         for (size_t k = 0; k < points_.size(); ++k)
-            if (std::isnan(sampler_.components(fields_.front(), k).front()))
+            if (!sampler_.reaches(k))
                 warning("probes: no particle is within reach of probe " + std::to_string(k) +
-                        " at (" + str(points_[k][0]) + " " + str(points_[k][1]) + " " +
-                        str(points_[k][2]) + "); nan is written until one comes");
+                        " at " + at(points_[k]) + "; nan is written until one comes");
     }
 
     size_t columnWidth(const particleField& f) const
@@ -94,8 +110,7 @@ private:
         word header, numbers = "#" + aligned("Probe", width - 1);
         for (size_t k = 0; k < points_.size(); ++k)
         {
-            header += "# Probe " + std::to_string(k) + " (" + str(points_[k][0]) + " " +
-                      str(points_[k][1]) + " " + str(points_[k][2]) + ")\n";
+            header += "# Probe " + std::to_string(k) + " " + at(points_[k]) + "\n";
             numbers += aligned(std::to_string(k), columnWidth(fields_[f]));
         }
         writeText(path, header + numbers + "\n#" + aligned("Time", width - 1) + "\n");
