@@ -109,7 +109,7 @@ TEST_CASE("Couette flow: the shear on both walls, and none of the pressure's ref
     t.functions =
         "f { type forces; patches (floor lid); pRef 7; writePrecision 12; }"
         "s { type surfaceSample; patches (floor); surfaceFormat raw; writePrecision 12; }"
-        "v { type surfaceSample; patches (floor); }";
+        "v { type surfaceSample; patches (floor); fields (U p); }";
     const vector both = part(t.measured("f/0/force.dat"), 0);
     const scalar shear = mu * rate * side * side;
     CHECK(part(t.rows("f/0/force_floor.dat").front(), 2)[0] == relative(shear, 1e-9));
@@ -121,7 +121,11 @@ TEST_CASE("Couette flow: the shear on both walls, and none of the pressure's ref
         CHECK(row[7] == relative(mu * rate, 0.01));    // the friction spread over the triangles
         CHECK(std::abs(row[4]) < 1e-9 * rate * side);  // no slip
     }
-    CHECK(t.output("v/0/floor.vtk").rfind("# vtk DataFile Version 3.0\n", 0) == 0);
+    const word vtk = t.output("v/0/floor.vtk");
+    CHECK(vtk.rfind("# vtk DataFile Version 3.0\n", 0) == 0);
+    for (const word array :
+         {"VECTORS U ", "SCALARS p "})  // each once, although `fields` names them
+        CHECK(vtk.find(array) == vtk.rfind(array));
 }
 
 TEST_CASE(
@@ -157,9 +161,16 @@ TEST_CASE(
     std::filesystem::create_directories(slab.path + "/constant/triSurface");
     writeSTL(top, slab.path + "/constant/triSurface/slab_to_water.stl");
     slab.boundary = t.boundary;
-    slab.functions = "f { type forces; patches (lid); zones (slab); writePrecision 12; }";
+    slab.functions =
+        "f { type forces; patches (lid); zones (slab); writePrecision 12; }"
+        "v { type surfaceFieldValue; operation areaAverage; zones (slab); fields (displacement p); }";
     const vector byBoth = part(slab.measured("f/0/force.dat"), 2);
     auto q = slab.start();
+    for (label i = 0; i < q.c->cloud.nSolid(); ++i)
+        q.c->cloud.vectors.at("x0")[i].s -= simd4{1e-4, 0, 0, 0};
+    functionObjectList values(*q.c);
+    values.start();
+    CHECK(slab.rows("v/0/surfaceFieldValue.dat").back()[1] == relative(1e-4, 1e-9));
     const presentState state(*q.c);
     const List<vec4> lap = laplacian(state);
     lost = vector::Zero();

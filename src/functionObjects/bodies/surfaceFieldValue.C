@@ -8,15 +8,18 @@
 //     min, max         of the triangles; magnitudes of vectors
 //
 // patches: walls and open faces of constant/boundary; zones: surfaces of solids; surfaces: constant/triSurface/<name>.stl.  All
-// given together are one area.  fields: p, U, wallShearStress (p).  `covered` is the share of the area with particles near
+// given together are one area.  fields: p, U, wallShearStress (p), and with zones alone those of the solid (particleFields.H),
+// fitted to its particles.  `covered` is the share of the area with particles near
 // enough.  Of the modelled part where symmetry planes cut the body.
 #include "functionObject.H"
 
 #include "dataFile.H"
+#include "fieldSampler.H"
 #include "wallShear.H"
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace ispf
 {
@@ -32,9 +35,10 @@ public:
           operation_(dict.choose("operation", {"areaAverage", "areaIntegrate", "min", "max"})),
           fields_(dict.getOrDefault<List<word>>("fields", {"p"})),
           bodies_(loadedBody::chosen(dict, c)),
+          solid_(solidFieldsOf(dict, c)),
           file_(table("surfaceFieldValue.dat",
                       ofModelled({operation_ + " over the surface; covered: share of its area"}),
-                      titles(dict)))
+                      titles()))
     {
     }
 
@@ -50,6 +54,7 @@ public:
             const List<loadedBody::side> sides = b.sides();
             const List<vector> tau =
                 shears ? wallShear(b, sides, case_, *friction) : List<vector>();
+            const List<List<vector>> ofSolid = solidValues(b, sides);
             size_t n = 0;
             for (const loadedBody::side& s : sides)
                 for (size_t k = 0; k < s.facets.size(); ++k, ++n)
@@ -60,10 +65,11 @@ public:
                     covered += area;
                     for (size_t f = 0; f < fields_.size(); ++f)
                     {
-                        const vector v = fields_[f] == "p"   ? vector(s.fluid[k].p, 0, 0)
+                        const vector v = solid_[f]           ? ofSolid[f][n]
+                                         : fields_[f] == "p" ? vector(s.fluid[k].p, 0, 0)
                                          : fields_[f] == "U" ? s.fluid[k].U
                                                              : tau[n];
-                        const scalar size = fields_[f] == "p" ? v[0] : v.norm();
+                        const scalar size = isVector(f) ? v.norm() : v[0];
                         if (sums()) result[f] += area * v;
                         else if (operation_ == "min") result[f][0] = std::min(result[f][0], size);
                         else result[f][0] = std::max(result[f][0], size);
@@ -75,7 +81,7 @@ public:
         {
             if (operation_ == "areaAverage") result[f] /= covered;
             if (covered == 0) result[f].setConstant(std::nan(""));
-            if (sums() && fields_[f] != "p") file_ << result[f];
+            if (sums() && isVector(f)) file_ << result[f];
             else file_ << result[f][0];
         }
         file_ << (whole > 0 ? covered / whole : 0);
@@ -86,17 +92,50 @@ private:
     bool sums() const { return operation_ != "min" && operation_ != "max"; }
     scalar start() const { return operation_ == "min" ? 1e300 : operation_ == "max" ? -1e300 : 0; }
 
-    List<word> titles(const dictionary& dict) const
+    bool isVector(size_t f) const { return solid_[f] ? solid_[f]->isVector() : fields_[f] != "p"; }
+
+    // Per field: null if it is one of the fluid
+    List<std::shared_ptr<particleField>> solidFieldsOf(const dictionary& dict,
+                                                       const fsiCase& c) const
+    {
+        List<std::shared_ptr<particleField>> all(fields_.size());
+        const std::set<word> ofFluid = {"p", "U", "wallShearStress"};
+        for (size_t f = 0; f < fields_.size(); ++f)
+        {
+            if (ofFluid.count(fields_[f])) continue;
+            all[f] = std::make_shared<particleField>(c.cloud, fields_[f], dict.where("fields"), &c);
+            if (!all[f]->ofSolid() ||
+                dict.getOrDefault<List<word>>("zones", {}).size() != bodies_.size())
+                dict.fail("fields",
+                          "Field " + fields_[f] +
+                              " is none of p, U, wallShearStress. One of a solid, such "
+                              "as displacement or vonMises, needs 'zones' of solids alone");
+        }
+        return all;
+    }
+
+    // Per field of a solid: its values at the facets of all sides, one after the other
+    List<List<vector>> solidValues(const loadedBody& b, const List<loadedBody::side>& sides) const
+    {
+        List<List<vector>> all(fields_.size());
+        if (std::none_of(solid_.begin(), solid_.end(), [](const auto& f) { return bool(f); }))
+            return all;
+        List<vector> points;
+        for (const loadedBody::side& s : sides)
+            for (const facet& f : s.facets) points.push_back(f.centre);
+        fieldSampler sampler(dictionary::fromString("zones (" + b.name() + ");"), case_);
+        sampler.update(points);
+        for (size_t f = 0; f < fields_.size(); ++f)
+            for (size_t k = 0; solid_[f] && k < points.size(); ++k)
+                all[f].push_back(isVector(f) ? sampler.sampleVector(*solid_[f], k)
+                                             : vector(sampler.sample(*solid_[f], k), 0, 0));
+        return all;
+    }
+
+    List<word> titles() const
     {
         List<word> all;
-        const List<word> known = {"p", "U", "wallShearStress"};
-        for (const word& f : fields_)
-        {
-            if (std::find(known.begin(), known.end(), f) == known.end())
-                dict.fail("fields",
-                          "There is no field '" + f + "' here. " + validWords("field", known));
-            all.push_back(operation_ + "(" + f + ")");
-        }
+        for (const word& f : fields_) all.push_back(operation_ + "(" + f + ")");
         all.push_back("covered");
         return all;
     }
@@ -104,6 +143,7 @@ private:
     word operation_;
     List<word> fields_;
     List<loadedBody> bodies_;
+    List<std::shared_ptr<particleField>> solid_;
     dataFile file_;
 };
 
