@@ -49,7 +49,8 @@ solidRecovery::solidRecovery(const fsiCase& c)
       fit_(ref_.n()),
       spread_(ref_.n()),
       feet_(findFeet()),
-      firstFoot_(ref_.n() + 1, 0)
+      firstFoot_(ref_.n() + 1, 0),
+      outside_(c.structureProperties, c.caseFolder())
 {
     map_.insert(map_.end(), ref_.images.begin(), ref_.images.end());
     for (const foot& f : feet_) ++firstFoot_[f.particle + 1];
@@ -64,13 +65,6 @@ solidRecovery::solidRecovery(const fsiCase& c)
     });
     forEach(0, label(feet_.size()),
             [&](label f) { feet_[f].fit = quadraticFit(feet_[f].particle, feet_[f].e0); });
-    const dictionary outside = c.structureProperties.subOrEmptyDict("outside");
-    stiffness_ = outside.getInRangeOrDefault<scalar>("stiffness", 0, 1e30, 0,
-                                                     dims::pressure * dims::perLength);
-    damping_ =
-        outside.getInRangeOrDefault<scalar>("damping", 0, 1e30, 0, dims::pressure / dims::velocity);
-    if (outside.found("pressure"))
-        pressure_ = Function1::New("pressure", outside, c.caseFolder(), dims::pressure);
 }
 
 List<solidRecovery::foot> solidRecovery::findFeet() const
@@ -207,8 +201,9 @@ scalar solidRecovery::outsidePressure(const foot& f, const facet& at) const
 {
     vector u = vector::Zero();
     for (const member& a : f.fit) u += a.weight * turn(a.image) * case_.cloud.Up[a.index].xyz();
-    const vector pull = stiffness_ * (at.centre - ref_.x0[f.particle] - f.e0) + damping_ * u;
-    return (pressure_ ? pressure_->value(case_.time.value()) : 0) -
+    const vector pull =
+        outside_.stiffness() * (at.centre - ref_.x0[f.particle] - f.e0) + outside_.damping() * u;
+    return outside_.pressure(case_.time.value()) -
            f.S0.norm() * pull.dot(at.area) / at.area.squaredNorm();
 }
 

@@ -6,46 +6,33 @@ namespace ispf
 {
 
 outsideWall::outsideWall(const dictionary& structureProperties, const word& caseFolder)
-    : dict_(structureProperties.subOrEmptyDict("outside")),
-      given_(structureProperties.found("outside"))
+    : entry_(structureProperties, caseFolder)
 {
-    if (!given_) return;
-    stiffness_ = dict_.getInRangeOrDefault<scalar>("stiffness", 0, 1e30, 0,
-                                                   dims::pressure * dims::perLength);
-    damping_ =
-        dict_.getInRangeOrDefault<scalar>("damping", 0, 1e30, 0, dims::pressure / dims::velocity);
-    if (dict_.found("pressure"))
-        pressure_ = Function1::New("pressure", dict_, caseFolder, dims::pressure);
-    dict_.refuseOthers({"pressure", "stiffness", "damping"});
-    if (dict_.empty())
-        structureProperties.fail("outside",
-                                 "It has no entry and no effect. Give a pressure, a stiffness or a "
-                                 "damping, or leave it away");
 }
 
 void outsideWall::find(const fsiCase& c, const solidSurface& surface)
 {
     const std::array<scalar, 2> areas = surface.wetAndOpen();
     wet_ = areas[0], open_ = areas[1];
-    if (given_ && !(open_ > 0))
-        dict_.fail(dict_.keys().front(),
-                   "It acts where neither fluid nor wall is before the solid, and there is no such "
-                   "place here. Leave it away");
+    if (entry_.given() && !(open_ > 0))
+        entry_.fail(
+            "It acts where neither fluid nor wall is before the solid, and there is no such "
+            "place here. Leave it away");
     if (open_ > 0) middle_ = surface.middleOfOpen();
-    if (tissue()) mass_ = surfaceMass(surface, *c.structure, c.cloud.uFixed);
+    if (entry_.tissue()) mass_ = surfaceMass(surface, *c.structure, c.cloud.uFixed);
 }
 
 std::optional<hydrostaticPart::outerPressure> outsideWall::level(scalar before, scalar during) const
 {
     if (!(open_ > 0)) return std::nullopt;
-    const auto at = [&](scalar t) { return pressure_ ? pressure_->value(t) : 0; };
-    return hydrostaticPart::outerPressure{at(before), at(during), middle_};
+    return hydrostaticPart::outerPressure{entry_.pressure(before), entry_.pressure(during),
+                                          middle_};
 }
 
 solidSurface::pressureAt outsideWall::pressureAt(scalar t, const hydrostaticPart& hydrostatic) const
 {
     if (!acts(hydrostatic)) return nullptr;
-    const scalar given = pressure_ ? pressure_->value(t) : 0;
+    const scalar given = entry_.pressure(t);
     // the schemes solve for p less its hydrostatic part, (1.9)
     return [given, &hydrostatic](const vector& at) { return given - hydrostatic.at(at); };
 }
@@ -74,7 +61,7 @@ void outsideWall::setStep(const fsiCase& c, const solidSurface& surface,
     ofLevel_.clear();
     if (const scalar level = hydrostatic.level(); level != 0)
         ofLevel_ = loadOf(c, surface, [level](const vector&) { return level; });
-    if (!tissue()) return;
+    if (!entry_.tissue()) return;
     const label n = cloud.nSolid();
     List<vec4> way(n), pull(n);
     const List<vec4>& rest = cloud.vectors.at("x0");
@@ -82,10 +69,10 @@ void outsideWall::setStep(const fsiCase& c, const solidSurface& surface,
     mass_.apply(way, pull);
     // the spring's force at the end of the step is that at its start less tau times its stiffness times u
     resists_ = mass_.withZeros();
-    resists_.addScaled(damping_ + s.tau * stiffness_, mass_);
+    resists_.addScaled(entry_.damping() + s.tau * entry_.stiffness(), mass_);
     forEach(0, n, [&](label i) {
         if (cloud.uFixed[i]) return;
-        force_[i].s -= stiffness_ * pull[i].s;
+        force_[i].s -= entry_.stiffness() * pull[i].s;
         force_[i][3] = 0;
     });
 }
@@ -100,7 +87,7 @@ scalar outsideWall::workOfLevel(const particleCloud& cloud, scalar tau) const
 scalar outsideWall::work(const particleCloud& cloud, scalar tau) const
 {
     List<vec4> held(cloud.nSolid());
-    if (tissue()) resists_.apply(cloud.Up, held);
+    if (entry_.tissue()) resists_.apply(cloud.Up, held);
     return tau * sumOf(0, cloud.nSolid(), [&](label i) -> scalar {
                if (!cloud.isFree(i)) return 0;
                return cloud.Up[i].xyz().dot(force_[i].xyz() - held[i].xyz());
