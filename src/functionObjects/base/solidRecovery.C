@@ -2,6 +2,7 @@
 #include "solidRecovery.H"
 
 #include "followWeights.H"
+#include "forPairs.H"
 #include "pointSampler.H"
 #include "solidSurface.H"
 #include "surfaceFit.H"
@@ -87,9 +88,10 @@ void solidRecovery::forNear(label k, const Visit& visit) const
 {
     visit(k, 0, ref_.x0[k]);
     const scalar G = structure_->shearModulus(k);
-    for (std::int64_t p = pairs_.start[k]; p < pairs_.start[k + 1]; ++p)
-        if (mixed_[k] || structure_->shearModulus(pairs_.index[p]) == G)
-            visit(pairs_.index[p], pairs_.image[p], ref_.x0[k] - pairs_.separation(ref_, k, p));
+    forNeighbours<among::all>(pairs_, k, [&](pairIndex p, label i) {
+        if (mixed_[k] || structure_->shearModulus(i) == G)
+            visit(i, pairs_.image[p], ref_.x0[k] - pairs_.separation(ref_, k, p));
+    });
 }
 
 // The fit at `way` from particle k at rest
