@@ -73,5 +73,7 @@ refusedFunction() { # functions, words
 refusedFunction "a { type residenceTime; } b { type residenceTime; }" "carries the field residenceTime"
 refusedFunction "a { type surfaceSample; patches (in); fields (vonMises); }" "Field vonMises is one of a solid"
 refusedFunction "a { type surfaceFieldValue; operation areaAverage; patches (in); fields (q); }" "Valid fields are: U p wallShearStress"
+refusedFunction "a { type surfaceFieldValue; operation areaAverage; zones (wall); fields (q); }" "Valid fields are: F_x .* wallShearStress"
+refusedFunction "a { type surfaceFieldValue; operation areaAverage; patches (in); fields (vonMises); }" "one of solids: it needs 'zones' of solids alone"
 refusedFunction "a { type probes; probeLocations ((0 0 0)); fields (misses); }" "vonMises"
 [ $failures = 0 ]

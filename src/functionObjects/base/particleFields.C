@@ -14,6 +14,16 @@ const List<word> ofStructure = {"stretches", "vonMises", "F_x",     "F_y",
 
 }  // namespace
 
+const List<word>& solidFieldNames()
+{
+    static const List<word> names = [] {
+        List<word> all = {"displacement"};
+        all.insert(all.end(), ofStructure.begin(), ofStructure.end());
+        return all;
+    }();
+    return names;
+}
+
 particleField::particleField(const particleCloud& cloud, const word& name,
                              const fileLocation& where, const fsiCase* c)
     : cloud_(cloud), name_(name), kind_(kindOf(c))

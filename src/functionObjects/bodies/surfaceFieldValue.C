@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace ispf
 {
@@ -98,18 +97,24 @@ private:
     List<std::shared_ptr<particleField>> solidFieldsOf(const dictionary& dict,
                                                        const fsiCase& c) const
     {
+        const List<word> ofFluid = {"p", "U", "wallShearStress"};
+        List<word> valid = ofFluid;
+        const bool solids = dict.getOrDefault<List<word>>("zones", {}).size() == bodies_.size();
+        if (solids) valid.insert(valid.end(), solidFieldNames().begin(), solidFieldNames().end());
+        const auto isIn = [](const List<word>& names, const word& name) {
+            return std::find(names.begin(), names.end(), name) != names.end();
+        };
         List<std::shared_ptr<particleField>> all(fields_.size());
-        const std::set<word> ofFluid = {"p", "U", "wallShearStress"};
         for (size_t f = 0; f < fields_.size(); ++f)
         {
-            if (ofFluid.count(fields_[f])) continue;
+            if (isIn(ofFluid, fields_[f])) continue;
+            if (!solids && isIn(solidFieldNames(), fields_[f]))
+                dict.fail("fields", "Field " + fields_[f] +
+                                        " is one of solids: it needs 'zones' of solids alone");
+            if (!isIn(valid, fields_[f]))
+                dict.fail("fields", "There is no field '" + fields_[f] + "' here. " +
+                                        validWords("field", valid));
             all[f] = std::make_shared<particleField>(c.cloud, fields_[f], dict.where("fields"), &c);
-            if (!all[f]->ofSolid() ||
-                dict.getOrDefault<List<word>>("zones", {}).size() != bodies_.size())
-                dict.fail("fields",
-                          "Field " + fields_[f] +
-                              " is none of p, U, wallShearStress. One of a solid, such "
-                              "as displacement or vonMises, needs 'zones' of solids alone");
         }
         return all;
     }
