@@ -123,8 +123,8 @@ TEST_CASE("Couette flow: the shear on both walls, and none of the pressure's ref
     }
     const word vtk = t.output("v/0/floor.vtk");
     CHECK(vtk.rfind("# vtk DataFile Version 3.0\n", 0) == 0);
-    for (const word array :
-         {"VECTORS U ", "SCALARS p "})  // each once, although `fields` names them
+    // each once, although `fields` names them
+    for (const word array : {"VECTORS U ", "SCALARS p "})
         CHECK(vtk.find(array) == vtk.rfind(array));
 }
 
@@ -163,7 +163,8 @@ TEST_CASE(
     slab.boundary = t.boundary;
     slab.functions =
         "f { type forces; patches (lid); zones (slab); writePrecision 12; }"
-        "v { type surfaceFieldValue; operation areaAverage; zones (slab); fields (displacement p); }";
+        "v { type surfaceFieldValue; operation areaAverage; zones (slab); fields (displacement p); "
+        "}";
     const vector byBoth = part(slab.measured("f/0/force.dat"), 2);
     auto q = slab.start();
     for (label i = 0; i < q.c->cloud.nSolid(); ++i)
