@@ -10,6 +10,13 @@ namespace ispf
 namespace
 {
 
+// Wendland C2 without its constant, q = r/radius
+scalar weightOf(scalar q)
+{
+    const scalar a = 1 - q;
+    return a * a * a * a * (4 * q + 1);
+}
+
 // Inverse of the neighbours' spread, zero in directions that they do not span
 tensor pseudoInverse(const tensor& spread, scalar least)
 {
@@ -24,12 +31,6 @@ tensor pseudoInverse(const tensor& spread, scalar least)
 }
 
 }  // namespace
-
-scalar pointSampler::weightOf(scalar q)
-{
-    const scalar a = 1 - q;
-    return a * a * a * a * (4 * q + 1);
-}
 
 pointSampler::pointSampler(const List<vector>& positions, scalar radius)
     : x_(positions), radius_(radius)

@@ -20,15 +20,15 @@ namespace
 constexpr const char* areaField[2] = {"surfaceAreaA", "surfaceAreaB"};  // {S0, zone + 1}
 constexpr const char* wayField[2] = {"surfaceWayA", "surfaceWayB"};     // {e0, -}
 
-// [-] a foot at a sharp tip looks up to so many times farther for particles that span the space, by half more at a time
-constexpr scalar farther = 5;
-
-// The particles near a foot, with their weights and slopes [1/m] (followWeights.H)
+// The particles near a foot, with their weights and slopes [1/m] (followWeights.H).  At a sharp tip it looks farther, by half
+// more at a time, until its particles span the space or are all
 void findFoot(const pointGrid& solids, const vector& foot, int nDims, scalar usual,
               List<label>& near, List<scalar>& weight, List<vector>& slope)
 {
     scalar spanned = 0;  // number of directions
-    for (scalar reach = usual; spanned < nDims - 0.5 && reach < farther * usual; reach *= 1.5)
+    near.clear();
+    for (scalar reach = usual; spanned < nDims - 0.5 && label(near.size()) < solids.size();
+         reach *= 1.5)
     {
         near.clear(), slope.clear(), spanned = 0;
         List<vector> r;
