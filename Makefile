@@ -13,7 +13,7 @@ LIBS := core/base core/dictionary core/control geometry surfaceTools fileFormats
         operators/pairs operators/viscosity operators/order \
         boundary/surfaces boundary/walls boundary/open boundary/patches \
         solid/reference solid/surface solid/materials solid/springs solid/discretisations solid/selection case \
-        schemes/resistance schemes/common schemes/projection schemes/monolithic schemes/selection \
+        schemes/resistance schemes/common schemes/projection schemes/solids schemes/monolithic schemes/selection \
         functionObjects/surfaces functionObjects/base functionObjects/fields functionObjects/bodies functionObjects/list
 
 USES_core/base               :=
@@ -45,7 +45,8 @@ USES_case                    := boundary/patches operators/viscosity operators/o
 USES_schemes/resistance      := case
 USES_schemes/common          := schemes/resistance solid/surface
 USES_schemes/projection      := schemes/common
-USES_schemes/monolithic      := schemes/common
+USES_schemes/solids          := schemes/common
+USES_schemes/monolithic      := schemes/solids
 USES_schemes/selection       := schemes/projection schemes/monolithic
 USES_functionObjects/surfaces := schemes/common
 USES_functionObjects/base    := functionObjects/surfaces

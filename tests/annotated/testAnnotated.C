@@ -46,7 +46,7 @@ const home homes[] = {
     {"case/fsiCase", "g|dict|", "g"},
     {"case/fsiCase", "physical|zoneRho|perZone", "physicalProperties"},
     {"case/viscosityModel", "", "physicalProperties"},
-    {"common/outsideEntry|monolithic/(closedGaps|restSearch)", "", "structureProperties"},
+    {"common/outsideEntry|solids/closedGaps|monolithic/restSearch", "", "structureProperties"},
     {"schemes/resistance/", "", "porosityProperties"},
     {"schemes/", "c.structureProperties|solid", "structureProperties"},
     {"schemes/|case/", "", "sphSolution"},
