@@ -15,9 +15,10 @@ constexpr scalar E = 3e3, G = E / 3, p = 123;
 
 struct block : testCase
 {
-    block()
+    explicit block(const word& phase = "solid")
     {
-        addBlock("block", {0, 0, 0}, {6, 6, 6}, "solid");
+        addBlock("block", {0, 0, 0}, {6, 6, 6}, phase);
+        if (phase != "solid") addBlock("free", {0, 0, 6 * dx}, {6, 6, 3}, "solid");
         structure = "structureModel totalLagrangian; material { type neoHookean; E 3e3; }";
         functions = "s { type solidStress; writePrecision 12; }";
     }
@@ -90,6 +91,17 @@ TEST_CASE("simple shear has the stress G gamma, and a volume that changes divide
     // the deviator of tau depends on the change of shape alone
     const tensor grown = rowsOf(b.after(1.1 * F).first, "sigma", 100);
     CHECK(grown(0, 1) == relative(0.4 * G / std::pow(1.1, 3), 1e-8));
+}
+
+TEST_CASE("a clamped particle among clamped ones has the stress of its deformation")
+{
+    block b("clamped");
+    const vector stretch(1.25, 0.8, 1);
+    const auto [t, row] = b.after(stretch.asDiagonal());
+    const vector B = G * stretch.cwiseProduct(stretch);
+    const scalar mises = (B - vector::Constant(B.mean())).norm() * std::sqrt(1.5);
+    for (size_t i = 0; i < t.size(); ++i)
+        CHECK(t.scalars.at("vonMises")[i] == relative(mises, 1e-8));
 }
 
 TEST_CASE("without a solid it is refused")

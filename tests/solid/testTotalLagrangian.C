@@ -423,6 +423,12 @@ TEST_CASE("materials of zones: the same law in two zones is one solid; wrong nam
     one->force(x, f), two->force(x, g);
     for (label i = 0; i < ref.n(); ++i)
         CHECK((f[i].xyz() - g[i].xyz()).norm() < 1e-12 * G * ref.dx);
+    // laws of the same G are two materials
+    const auto differ = lagrangian(
+        ref, "materials { soft " + law + " stiff { type MooneyRivlin; c1 2.5e5; c2 2.5e5; } }");
+    CHECK(differ->shearModulus(0) == differ->shearModulus(ref.n() - 1));
+    CHECK(differ->material(0) != differ->material(ref.n() - 1));
+    CHECK(two->material(0) == two->material(ref.n() - 1));
     const auto error = [&](const word& entries) {
         return errorOf([&] { lagrangian(ref, entries); });
     };

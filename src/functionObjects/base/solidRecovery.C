@@ -56,16 +56,17 @@ solidRecovery::solidRecovery(const fsiCase& c)
     map_.insert(map_.end(), ref_.images.begin(), ref_.images.end());
     for (const foot& f : feet_) ++firstFoot_[f.particle + 1];
     for (label k = 0; k < ref_.n(); ++k) firstFoot_[k + 1] += firstFoot_[k];
-    List<vec4> rest;
-    for (const vector& X : ref_.x0) rest.push_back(vec4::from(X));
+    List<vec4> image;
+    for (const vector& X : ref_.x0) image.push_back(vec4::from(X));
     forEach(0, ref_.n(), [&](label k) {
         fit_[k] = quadraticFit(k, vector::Zero());
-        if (gradient(fit_[k], rest).trace() < 2.99)
+        if (gradient(fit_[k], image).trace() < 2.99)
             mixed_[k] = 1, fit_[k] = quadraticFit(k, vector::Zero());
         spread_[k] = spreadOf(k);
     });
     forEach(0, label(feet_.size()),
             [&](label f) { feet_[f].fit = quadraticFit(feet_[f].particle, feet_[f].e0); });
+    if (!ref_.rest.empty()) prestretch_ = prestretch(image);
 }
 
 List<solidRecovery::foot> solidRecovery::findFeet() const
@@ -87,9 +88,9 @@ template <class Visit>
 void solidRecovery::forNear(label k, const Visit& visit) const
 {
     visit(k, 0, ref_.x0[k]);
-    const scalar G = structure_->shearModulus(k);
+    const label own = structure_->material(k);
     forNeighbours<among::all>(pairs_, k, [&](pairIndex p, label i) {
-        if (mixed_[k] || structure_->shearModulus(i) == G)
+        if (mixed_[k] || structure_->material(i) == own)
             visit(i, pairs_.image[p], ref_.x0[k] - pairs_.separation(ref_, k, p));
     });
 }
@@ -160,11 +161,24 @@ structureModel::motion solidRecovery::motion(const List<tensor>& F) const
         m.rate[k] = gradientOfVectors(fit_[k], case_.cloud.Up);
     });
     m.fromRest = m.F;
-    if (ref_.rest.empty()) return m;
-    List<vec4> rest(n);
-    for (label k = 0; k < n; ++k) rest[k] = vec4::from(ref_.rest[k]);
-    forEach(0, n, [&](label k) { m.fromRest[k] *= gradient(fit_[k], rest).inverse(); });
+    for (size_t k = 0; k < prestretch_.size(); ++k) m.fromRest[k] *= prestretch_[k];
     return m;
+}
+
+// F0 of (7.19), smoothed, (5.52)
+List<tensor> solidRecovery::prestretch(const List<vec4>& image) const
+{
+    const label n = ref_.n();
+    List<tensor> H, F0(n);
+    structure_->fromRest(image, H);
+    forEach(0, n, [&](label k) { H[k] = H[k].inverse().eval(); });
+    forEach(0, n, [&](label k) {
+        tensor sum = tensor::Zero();
+        for (const member& a : linearFit(k, [&](label i) { return i < n; }))
+            sum += a.weight * turn(a.image) * H[a.index] * turn(a.image).transpose();
+        F0[k] = withVolume(sum, 1, spread_[k]).inverse();
+    });
+    return F0;
 }
 
 void solidRecovery::evaluate(List<tensor>& F, List<tensor>& sigma) const
@@ -243,25 +257,38 @@ List<scalar> solidRecovery::onSurface(const List<tensor>& s) const
     return q;
 }
 
-// (5.50).  q: of all particles, then of all feet
-scalar solidRecovery::pressure(label k, const List<scalar>& q) const
+// (5.50) about k: weights of the particles and feet that `counts` takes.  Feet have the indices from n() on
+template <class Counts>
+List<solidRecovery::member> solidRecovery::linearFit(label k, const Counts& counts) const
 {
     List<vector> offsets;
+    List<label> images;
     List<pointSampler::contribution> weights;
-    const auto add = [&](label index, const vector& X, scalar weight) {
+    const auto add = [&](label index, label image, const vector& X, scalar weight) {
         const vector d = (X - ref_.x0[k]) / (reach * ref_.dx);
-        if (!(d.norm() < 1) || std::isnan(q[index])) return;
-        offsets.push_back(d), weights.push_back({index, weight * (1 - d.squaredNorm())});
+        if (!(d.norm() < 1) || !counts(index)) return;
+        offsets.push_back(d), images.push_back(image);
+        weights.push_back({index, weight * (1 - d.squaredNorm())});
     };
     forNear(k, [&](label i, label image, const vector& X) {
-        add(i, X, 1);
+        add(i, image, X, 1);
         for (label f = firstFoot_[i]; f < firstFoot_[i + 1]; ++f)
-            add(ref_.n() + f, X + turn(image) * feet_[f].e0, ofSurface);
+            add(ref_.n() + f, image, X + turn(image) * feet_[f].e0, ofSurface);
     });
-    if (weights.empty()) return 0;
+    List<member> fit;
+    if (weights.empty()) return fit;
     pointSampler::makeLinear(offsets, weights);
+    for (size_t a = 0; a < weights.size(); ++a)
+        fit.push_back({weights[a].index, images[a], weights[a].weight, vector::Zero()});
+    return fit;
+}
+
+// q: of all particles, then of all feet
+scalar solidRecovery::pressure(label k, const List<scalar>& q) const
+{
     scalar sum = 0;
-    for (const pointSampler::contribution& c : weights) sum += c.weight * q[c.index];
+    for (const member& a : linearFit(k, [&](label i) { return !std::isnan(q[i]); }))
+        sum += a.weight * q[a.index];
     return sum;
 }
 

@@ -112,6 +112,7 @@ public:
     List<label> linkCounts() const override;
     word description() const override;
     scalar shearModulus(label k) const override { return materials_.fastModulus(k); }
+    label material(label k) const override { return materials_.number(k); }
     solidMemory* memory() override { return networks_.get(); }
 
 private:
@@ -363,7 +364,7 @@ bool totalLagrangian::stress(const motion& m, List<tensor>& tau) const
 {
     tau.assign(size_t(n()), tensor::Zero());
     forEach(0, n(), [&](label k) {
-        if (!active_[k]) return;
+        if (fit_.follows(k)) return;
         tau[k] = materials_.stress(m.fromRest[k], k) * m.fromRest[k].transpose();
         if (remembers(k)) tau[k] += networks_->stress(m.F[k], k) * m.F[k].transpose();
         const tensor L = m.rate[k] * m.F[k].inverse();

@@ -48,12 +48,12 @@ zoneMaterials::zoneMaterials(const dictionary& dict, const List<vector>& x0,
     if (dict.found("material"))
     {
         for (label k = 0; k < label(x0.size()); ++k) place_[k] = k;
-        add(dict.subDict("material"), x0);
+        add(dict.subDict("material"), x0), same_ = {0};
     }
     else
     {
         const dictionary materials = dict.subDict("materials");
-        List<word> solid;
+        List<word> solid, entries;
         for (label z = 0; z < label(zoneNames.size()); ++z)
         {
             List<vector> places;
@@ -67,6 +67,9 @@ zoneMaterials::zoneMaterials(const dictionary& dict, const List<vector>& x0,
                 throw fatalError("'materials' has no material for the zone " + zoneNames[z],
                                  materials.where());
             add(materials.subDict(zoneNames[z]), places);
+            entries.push_back(materials.valueText(zoneNames[z]));
+            same_.push_back(
+                label(std::find(entries.begin(), entries.end(), entries.back()) - entries.begin()));
         }
         for (const word& key : materials.keys())
             if (std::find(solid.begin(), solid.end(), key) == solid.end())
@@ -106,7 +109,7 @@ scalar zoneMaterials::stiffest() const
 
 bool zoneMaterials::differ() const
 {
-    return std::any_of(fast_.begin(), fast_.end(), [&](scalar G) { return G != fast_[0]; });
+    return std::any_of(same_.begin(), same_.end(), [](label m) { return m > 0; });
 }
 
 word zoneMaterials::description() const
