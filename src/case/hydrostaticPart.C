@@ -61,14 +61,10 @@ scalar hydrostaticPart::meanOfGiven(const particleCloud& cloud, const vector& a,
     return n > 0 ? sum / n : 0;
 }
 
-// p loses the level that it has at the step's start.  Else a change of the given pressures would change all p' at once, and what
-// the solver leaves is in proportion to the error of its guess
-void hydrostaticPart::take(particleCloud& cloud, bool level,
-                           const std::optional<outerPressure>& outer)
+scalar hydrostaticPart::setLevel(const particleCloud& cloud, bool level,
+                                 const std::optional<outerPressure>& outer)
 {
-    const bool takes = level || outer || !during_.isZero(0);
-    level_ = 0;
-    scalar old = 0;
+    level_ = levelBefore_ = 0;
     const auto given = [&] {
         return std::any_of(cloud.pFixed.begin(), cloud.pFixed.begin() + cloud.n(),
                            [](char fixed) { return fixed; });
@@ -76,18 +72,26 @@ void hydrostaticPart::take(particleCloud& cloud, bool level,
     if (outer && !(level && given()))
     {
         level_ = outer->during - c_.rho * during_.dot(outer->at);
-        old = outer->before - c_.rho * before_.dot(outer->at);
+        levelBefore_ = outer->before - c_.rho * before_.dot(outer->at);
     }
-    else if (takes)
+    else if (level || outer || !during_.isZero(0))
     {
         level_ = meanOfGiven(cloud, during_, [&](label i) { return cloud.pGiven[i]; });
-        old = meanOfGiven(cloud, before_, [&](label i) { return cloud.Up[i][3]; });
+        levelBefore_ = meanOfGiven(cloud, before_, [&](label i) { return cloud.Up[i][3]; });
     }
-    fall_ = old - level_;
-    if (!takes && before_.isZero(0)) return;
+    return level_;
+}
+
+// p loses the level that it has at the step's start.  Else a change of the given pressures would change all p' at once, and what
+// the solver leaves is in proportion to the error of its guess
+void hydrostaticPart::take(particleCloud& cloud, bool level,
+                           const std::optional<outerPressure>& outer)
+{
+    setLevel(cloud, level, outer);
+    if (!level && !outer && during_.isZero(0) && before_.isZero(0)) return;
     forEach(0, cloud.n(), [&](label i) {
         const vector x = cloud.x[i].xyz();
-        cloud.Up[i][3] -= c_.rho * before_.dot(x) + old;
+        cloud.Up[i][3] -= c_.rho * before_.dot(x) + levelBefore_;
         cloud.pGiven[i] -= c_.rho * during_.dot(x) + level_;
     });
 }

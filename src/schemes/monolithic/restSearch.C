@@ -2,7 +2,9 @@
 #include "restSearch.H"
 #include "FGMRES.H"
 #include "elasticStep.H"
+#include "forPairs.H"
 #include "outsideWall.H"
+#include "rigidMotion.H"
 #include "solidState.H"
 #include "stepSources.H"
 #include "solidMemory.H"
@@ -24,6 +26,8 @@ constexpr scalar longestPass = 0.2;
 // Times that a shear wave takes along the solid: a step so long has no inertia
 constexpr scalar longStep = 10;
 constexpr scalar nothing = 1e-12;  // strain that is rounding
+// Of the largest pressure: a difference that is told
+constexpr scalar differs = 0.01;
 
 class restSearch
 {
@@ -37,7 +41,8 @@ public:
           tolerance_(dict.getInRangeOrDefault("tolerance", 1e-12, 1e-2, 1e-4)),
           maxIter_(dict.getInRangeOrDefault<label>("maxIter", 1, 10000, 100)),
           dict_(dict),
-          outside_(c.structureProperties, c.caseFolder())
+          outside_(c.structureProperties, c.caseFolder()),
+          hydrostatic_(c)
     {
         dict.refuseOthers({"pressures", "tolerance", "maxIter"});
     }
@@ -46,10 +51,12 @@ public:
 private:
     List<scalar> pressures(const dictionary& dict) const;
     void hold();
+    void warnOfFaces() const;
     void lookAtShape();
-    void setForces(elasticStep& elastic, coupledSystem& system, scalar tau);
+    void setForces(elasticStep& elastic, scalar tau);
     List<scalar> missingVolume(scalar tau) const;
     void release(const List<vec4>& velocities);
+    void holdBodies(List<vec4>& w) const;
     scalar stepLength() const;
     void setSteadyVolume(const coupledSystem& system, List<scalar> z);
     scalar pass();
@@ -66,6 +73,7 @@ private:
     std::unique_ptr<volumeConstraint> volume_;
     solidSurface surface_;
     List<tensor> toRest_;  // dX/dx
+    hydrostaticPart hydrostatic_;
 };
 
 List<scalar> restSearch::pressures(const dictionary& dict) const
@@ -77,20 +85,50 @@ List<scalar> restSearch::pressures(const dictionary& dict) const
         if (c_.cloud.zones[z].phase != phaseType::fluid)
             dict.fail(zone,
                       "Zone " + zone + " is solid: a prestress is given by the pressure of fluid");
-        p[z] = dict.get<scalar>(zone, dims::pressure);
     }
+    for (size_t z = 0; z < p.size(); ++z)  // patterns too
+        if (const word& zone = c_.cloud.zones[z].name;
+            c_.cloud.zones[z].phase == phaseType::fluid && dict.found(zone))
+            p[z] = dict.get<scalar>(zone, dims::pressure);
     return p;
 }
 
-// The fluid stands still with its pressure
+// Once, of an open face whose pressure is not that of its fluid
+void restSearch::warnOfFaces() const
+{
+    const particleCloud& cloud = c_.cloud;
+    const scalar largest =
+        std::abs(*std::max_element(pressure_.begin(), pressure_.end(),
+                                   [](scalar a, scalar b) { return std::abs(a) < std::abs(b); }));
+    for (label i = 0; i < cloud.n(); ++i)
+    {
+        if (!cloud.pFixed[i]) continue;
+        const scalar p = cloud.pGiven[i] -
+                         c_.rho * hydrostatic_.acceleration().dot(cloud.x[i].xyz()),
+                     asked = pressure_[cloud.zone[i]];
+        if (std::abs(p - asked) <= differs * largest) continue;
+        return warning("The open face at " + cloud.describe(i) + " has " + str(p, 4) +
+                       " Pa at the start, and prestress.pressures has " + str(asked, 4) +
+                       " Pa in zone " + cloud.zones[cloud.zone[i]].name +
+                       ": the solid will not start at rest. Give both the same");
+    }
+}
+
+// The fluid stands still with its pressure, less the level that the run will take off: forces of a level have no sum but for
+// rounding in the areas, which the rest would have to balance
 void restSearch::hold()
 {
     particleCloud& cloud = c_.cloud;
+    const scalar t = c_.time.value();
+    hydrostatic_.setStep(t, t);
+    lookAtShape();
+    const scalar level = hydrostatic_.setLevel(cloud, outside_.mostlyWet(), outside_.level(t, t));
+    warnOfFaces();
     for (label i = 0; i < cloud.n(); ++i)
     {
         scalar p = cloud.Up[i][3];
         if (cloud.isFluid(i))
-            p = pressure_[cloud.zone[i]], cloud.pGiven[i] = p,
+            p = pressure_[cloud.zone[i]] - level, cloud.pGiven[i] = p,
             cloud.uFixed[i] = cloud.pFixed[i] = 1;
         cloud.Up[i].s = simd4{0, 0, 0, p};
     }
@@ -103,6 +141,27 @@ scalar restSearch::stepLength() const
     return longStep * box.diagonal().norm() * std::sqrt(c_.rho / c_.structure->shearModulus());
 }
 
+// A force or a moment on a body as a whole has no rest: a body that no clamp and no image holds keeps its place and its turn
+void restSearch::holdBodies(List<vec4>& w) const
+{
+    const label n = c_.cloud.nSolid();
+    const List<vec4>& rest = c_.cloud.vectors.at(restPlaces);
+    const referenceNeighbours& pairs = c_.structure->gradient().neighbours();
+    const List<label> bodyOf = c_.structure->tangentPattern().connectedSets();
+    List<rigidMotion> of(n);  // at the first particle of each body
+    for (label i = 0; i < n; ++i)
+    {
+        rigidMotion& body = of[bodyOf[i]];
+        body.add(rest[i].xyz(), w[i].xyz());
+        forNeighbours<among::all>(
+            pairs, i, [&](pairIndex p, label) { body.held = body.held || pairs.image[p]; });
+        body.held = body.held || c_.cloud.uFixed[i];
+    }
+    for (label i = 0; i < n; ++i)
+        if (const rigidMotion& body = of[bodyOf[i]]; !body.held)
+            w[i] = vec4::from(w[i].xyz() - body.at(rest[i].xyz()));
+}
+
 // (7.20).  Returns the largest strain of the rest in it
 scalar restSearch::moveRest(const List<scalar>& z, scalar tau)
 {
@@ -112,6 +171,7 @@ scalar restSearch::moveRest(const List<scalar>& z, scalar tau)
         const vector u(z[4 * i], z[4 * i + 1], z[4 * i + 2]);
         if (!c_.cloud.uFixed[i]) w[i] = vec4::from(tau * toRest_[i] * u);
     });
+    holdBodies(w);
     List<tensor> change;  // over places at rest: a turn of the rest has no strain
     c_.structure->gradient().applyLinear(w, change);
     forEach(0, n, [&](label i) { change[i] *= toRest_[i].inverse().eval(); });
@@ -152,16 +212,16 @@ void restSearch::lookAtShape()
 }
 
 // Sets the forces and the tangent at the first shape
-void restSearch::setForces(elasticStep& elastic, coupledSystem& system, scalar tau)
+void restSearch::setForces(elasticStep& elastic, scalar tau)
 {
     const scalar t = c_.time.value();
     const List<vec4> x(c_.cloud.x.begin(), c_.cloud.x.begin() + c_.cloud.nSolid());
-    const auto outsidePressure = outside_.pressureAt(t, system.hydrostatic());
+    const auto outsidePressure = outside_.pressureAt(t, hydrostatic_);
     c_.cloud.fillGhosts(c_.cloud.Up, false);
     elastic.begin(x, tau, surface_.overSurface(c_.cloud.Up, *volume_, outsidePressure));
     if (!outsidePressure) return;
-    outside_.setStep(c_, surface_, system.hydrostatic(), {tau, t, x});
-    elastic.addOutside(outside_.force(), outside_.resistance());
+    outside_.setStep(c_, surface_, hydrostatic_, {tau, t, x});
+    elastic.addOutside(outside_.force(), nullptr);  // its springs have no length yet
 }
 
 // det(dX/dx) - 1, over tau: the source with which the rest gets the volume of the image
@@ -184,7 +244,7 @@ scalar restSearch::pass()
     coupledSystem system(c_);
     system.setStep(c_.time.value(), c_.time.value());
     elasticStep elastic(c_.structure.get(), elasticStep::entries(dictionary()));
-    setForces(elastic, system, tau);
+    setForces(elastic, tau);
     system.setup(tau, volume_.get(), &surface_, &elastic.tangent(), &elastic.stiffness());
     monolithicPreconditioner preconditioner(system, preconditioner_);
     preconditioner.setup();  // with the tangent of a step, which is positive
@@ -211,9 +271,7 @@ void restSearch::release(const List<vec4>& velocities)
     const scalar t = c_.time.value();
     forEach(0, cloud.n(), [&](label i) { cloud.Up[i].setXyz(velocities[i].xyz()); });
     c_.updateNeighbours(t, t);  // with the flags of the case
-    hydrostaticPart weight(c_);
-    weight.setStep(t, t);
-    weight.giveBack(cloud);
+    hydrostatic_.giveBack(cloud);
     keepSolid(c_);
 }
 
@@ -246,8 +304,7 @@ void restSearch::run()
             str(strain, 3) + ", and " + str(tolerance_, 3) + " is asked for (tolerance, maxIter " +
             std::to_string(maxIter_) +
             "). Would the rest be so narrow that the particles cannot tell it, or is the pressure "
-            "more than the wall can carry? Then try a smaller one. Is a part of "
-            "the solid held nowhere? Then clamp some of it, or hold it by outside.stiffness",
+            "more than the wall can carry? Then try a smaller one",
         dict_.where());
 }
 
