@@ -44,7 +44,7 @@ public:
         const pairFriction friction(case_);
         for (size_t k = 0; k < bodies_.size(); ++k)
         {
-            const bodyLoad part = loadOn(bodies_[k], case_, friction, {centre_, pRef_});
+            const bodyLoad part = loadOn(bodies_[k], friction, {centre_, pRef_});
             sum.add(part);
             if (files_.size() > 1) put(files_[k + 1], part);
         }

@@ -98,6 +98,7 @@ private:
                                                        const fsiCase& c) const
     {
         const List<word> ofFluid = {"p", "U", "wallShearStress"};
+        if (fields_.empty()) dict.fail("fields", "It names no field and has no effect");
         List<word> valid = ofFluid;
         const bool solids = dict.getOrDefault<List<word>>("zones", {}).size() == bodies_.size();
         if (solids) valid.insert(valid.end(), solidFieldNames().begin(), solidFieldNames().end());

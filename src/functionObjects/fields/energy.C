@@ -153,7 +153,7 @@ private:
         const auto velocity = [&](const vector& x) {
             return case_.walls->wallVelocity(wall.name(), x);
         };
-        const bodyLoad load = loadOn(wall, case_, friction);
+        const bodyLoad load = loadOn(wall, friction);
         const tensor W = pairFriction::turnOf(wall.name(), case_);
         const vector omega(W(2, 1), W(0, 2), W(1, 0));
         p.wallPower -= velocity(vector::Zero()).dot(load.total()) + omega.dot(load.totalMoment());

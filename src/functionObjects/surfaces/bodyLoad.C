@@ -11,7 +11,7 @@ void bodyLoad::add(const bodyLoad& other)
     area += other.area, covered += other.covered;
 }
 
-bodyLoad loadOn(const loadedBody& body, const fsiCase& c, const pairFriction& friction,
+bodyLoad loadOn(const loadedBody& body, const pairFriction& friction,
                 const loadReference& reference)
 {
     bodyLoad sum;

@@ -109,9 +109,11 @@ loadedBody loadedBody::solid(const word& zone, const fsiCase& c, const fileLocat
         b.parts_.push_back({std::make_shared<trackedSurface>(surface, c, where), one});
     }
     if (b.parts_.empty())
-        throw fatalError("Zone " + zone + " has no surface constant/triSurface/" + zone +
-                             "_to_<fluid zone>.stl; generateParticles writes them",
-                         where);
+        throw fatalError(
+            "Zone " + zone + " has no surface constant/triSurface/" + zone +
+                "_to_<fluid zone>.stl. generateParticles writes one for each zone of fluid that "
+                "the solid touches: does it touch none?",
+            where);
     return b;
 }
 
