@@ -325,6 +325,8 @@ TEST_CASE("bodies that are none are refused")
     CHECK_ERROR(wrong("f { type forces; patches (flor); }"), "Did you mean 'floor'?", 3);
     CHECK_ERROR(wrong("f { type forces; patches (wall); }"), "Valid walls are: floor left lid", 3);
     CHECK_ERROR(wrong("f { type forces; zones (water); }"), "is not solid", 3);
+    CHECK_ERROR(wrong("f { type surfaceFieldValue; operation max; patches (lid); fields (); }"),
+                "names no field", 3);
     CHECK_ERROR(wrong("f { type surfaceSample; }"), "wants patches", 3);
     CHECK_ERROR(wrong("f { type surfaceSample; surfaces (cut); }"), "There is no surface", 3);
     CHECK_ERROR(wrong("f { type surfaceSample; patches (lid); surfaceFormat stl; }"),

@@ -26,8 +26,6 @@ constexpr scalar longestPass = 0.2;
 // Times that a shear wave takes along the solid: a step so long has no inertia
 constexpr scalar longStep = 10;
 constexpr scalar nothing = 1e-12;  // strain that is rounding
-// Of the largest pressure: a difference that is told
-constexpr scalar differs = 0.01;
 
 class restSearch
 {
@@ -93,7 +91,7 @@ List<scalar> restSearch::pressures(const dictionary& dict) const
     return p;
 }
 
-// Once, of an open face whose pressure is not that of its fluid
+// Warns once of an open face whose pressure differs from that of its fluid by more than the tolerance of the search
 void restSearch::warnOfFaces() const
 {
     const particleCloud& cloud = c_.cloud;
@@ -106,16 +104,16 @@ void restSearch::warnOfFaces() const
         const scalar p = cloud.pGiven[i] -
                          c_.rho * hydrostatic_.acceleration().dot(cloud.x[i].xyz()),
                      asked = pressure_[cloud.zone[i]];
-        if (std::abs(p - asked) <= differs * largest) continue;
-        return warning("The open face at " + cloud.describe(i) + " has " + str(p, 4) +
-                       " Pa at the start, and prestress.pressures has " + str(asked, 4) +
+        if (std::abs(p - asked) <= tolerance_ * largest) continue;
+        return warning("The open face at " + cloud.describe(i) + " has " + str(p, 6) +
+                       " Pa at the start, and prestress.pressures has " + str(asked, 6) +
                        " Pa in zone " + cloud.zones[cloud.zone[i]].name +
                        ": the solid will not start at rest. Give both the same");
     }
 }
 
-// The fluid stands still with its pressure, less the level that the run will take off: forces of a level have no sum but for
-// rounding in the areas, which the rest would have to balance
+// Holds the fluid still with its pressure, less the level that the run will take off.  The forces of a level cancel but for
+// what the areas of the surface miss, and the rest would have to balance what is left
 void restSearch::hold()
 {
     particleCloud& cloud = c_.cloud;
